@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "strutt/base/bounded_matrix.hpp"
+#include "strutt/base/method.hpp"
+#include "strutt/base/outcome.hpp"
+#include "strutt/integrate/integrator.hpp"
+#include "strutt/model/hill_equation.hpp"
+#include "strutt/model/linear_system.hpp"
+
+namespace strutt {
+
+/// What is wanted of a monodromy matrix.
+struct MonodromyOptions {
+  double tolerance = 1e-9;             ///< largest `error` wanted, 1e-13 <= tolerance <= 1e-2
+  Method method = Method::automatic;   ///< automatic, exact (piecewise-constant Hill equations), arkode, cvode
+  bool estimate_error = true;          ///< false: no second run; `error` then holds the rounding part only
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< per integration
+  const std::atomic<bool>* cancel = nullptr;
+
+  void validate() const;  ///< throws InvalidInput
+};
+
+/// The monodromy matrix M of a linear periodic system over one period from t = 0, in log form.
+///
+/// The state is scaled, (q, q'/kappa): entries are then dimensionless and comparable. With uniform damping
+/// (q'' + c q' + ...) the equation of y = exp(ct/2) q is integrated, whose matrix N has determinant 1:
+///   M = exp(-h) L N L^-1,   h = cT/2,   L = [I, 0; -(c/2 kappa) I, I].
+struct Monodromy {
+  BoundedMatrix matrix;      ///< M, n x n, scaled state
+  BoundedMatrix undamped;    ///< N (= M where no damping was split off)
+  double half_damping = 0.0; ///< h
+  /// Hill's equation with an even coefficient about theta0: the propagator of y over [theta0, theta0 + pi],
+  /// [u1, kappa u2; u1'/kappa, u2']. Then trace N - 2 = 4 u1' u2 and trace N + 2 = 4 u1 u2'.
+  std::optional<BoundedMatrix> half;
+  double kappa = 1.0;        ///< in the scene's unit of time
+
+  /// Upper bound of the error of trace M and of every entry of `matrix`, divided by max(1, largest |entry|), the
+  /// rounding of results to double included (CLI.md, column `error`). +inf when there is no result.
+  double error = std::numeric_limits<double>::infinity();
+  /// Largest |det - 1| of the integrated propagators of y, each divided by its squared norm (numerical extremes N3).
+  double determinant_defect = 0.0;
+  Method method = Method::automatic;  ///< the one used
+  Outcome outcome = Outcome::failed;
+  IntegrationCost cost;               ///< of the runs that gave the value
+  IntegrationCost estimate_cost;      ///< of those that gave the error
+};
+
+/// Computes monodromy matrices one after the other, reusing its integrators. Not thread-safe: one per thread.
+/// Results do not depend on what was computed before.
+class MonodromyEngine {
+ public:
+  MonodromyEngine();
+  ~MonodromyEngine();
+  MonodromyEngine(MonodromyEngine&&) noexcept;
+  MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
+
+  /// Method::automatic: exact for a piecewise-constant coefficient, else arkode. The local tolerance starts at
+  /// max(tolerance/100, 1e-13) and is tightened while the error bound is above the tolerance.
+  /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
+  Monodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
+  Monodromy compute(const LinearPeriodicSystem& system, const MonodromyOptions& options = {});
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace strutt

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "strutt/floquet/multipliers.hpp"
+#include "strutt/model/scene.hpp"
+
+namespace strutt {
+
+/// Everything Strutt says about one linear periodic system; the columns of `strutt stability` (CLI.md).
+struct Stability {
+  Verdict verdict = Verdict::unresolved;
+  double margin = std::numeric_limits<double>::quiet_NaN();
+  double margin_error = std::numeric_limits<double>::infinity();
+  double growth = std::numeric_limits<double>::quiet_NaN();           ///< ln of the spectral radius per period
+  double growth_per_time = std::numeric_limits<double>::quiet_NaN();  ///< growth/T
+  double winding = std::numeric_limits<double>::quiet_NaN();  ///< NaN for more than 2 states, or unless asked for
+  double discriminant = std::numeric_limits<double>::quiet_NaN();     ///< trace of M / exp(log_scale)
+  Eigen::MatrixXd matrix;  ///< M / exp(log_scale), scene's units, state (q, q'), n x n; empty when there is none
+  double log_scale = 0.0;  ///< 0 unless an entry, the trace or a multiplier would pass 1e300
+  std::vector<std::complex<double>> multipliers;  ///< / exp(log_scale); by falling modulus, positive imaginary part first
+  double error = std::numeric_limits<double>::infinity();  ///< of trace and M, see Monodromy::error
+  Method method = Method::automatic;
+  Outcome outcome = Outcome::failed;
+  IntegrationCost cost;           ///< of the runs that gave the value
+  IntegrationCost estimate_cost;  ///< of those that gave the error
+};
+
+/// Which parts to compute beyond verdict, margin, growth and error.
+struct StabilityParts {
+  bool winding = true;
+  bool matrix = true;  ///< matrix, discriminant, log_scale, multipliers
+};
+
+/// From a monodromy matrix to everything else. Never throws for numerical reasons.
+Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts = {});
+Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts = {});
+
+/// compute + assess. A system with one degree of freedom and constant c >= 0 is treated as the Hill equation it is.
+Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options = {},
+                  const StabilityParts& parts = {});
+
+/// The Hill equation that a system with one degree of freedom, constant damping c >= 0 is; nothing otherwise.
+std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system);
+
+}  // namespace strutt

@@ -1,0 +1,45 @@
+#include "strutt/base/parallel.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace strutt {
+namespace {
+
+bool is_cancelled(const ParallelOptions& options) {
+  return options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
+}
+
+}  // namespace
+
+int thread_count(const ParallelOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1, tbb::this_task_arena::max_concurrency());
+}
+
+bool parallel_for(std::size_t count, const ParallelOptions& options,
+                  const std::function<void(std::size_t, int)>& body) {
+  std::atomic<std::size_t> done{0};
+  const auto run = [&](std::size_t first, std::size_t last, int slot) {
+    for (std::size_t index = first; index < last && !is_cancelled(options); ++index) {
+      body(index, slot);
+      done.fetch_add(1, std::memory_order_relaxed);
+    }
+  };
+  const int threads = thread_count(options);
+  if (threads == 1) {
+    run(0, count, 0);
+  } else {
+    tbb::task_arena arena(threads);
+    arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+        run(range.begin(), range.end(), tbb::this_task_arena::current_thread_index());
+      });
+    });
+  }
+  return done == count;
+}
+
+}  // namespace strutt

@@ -1,0 +1,128 @@
+#include "strutt/floquet/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/winding.hpp"
+
+namespace strutt {
+namespace {
+
+constexpr double kLogLargest = 690.0;  // ln 1e300, rounded down
+
+// ln 2 as an unevaluated sum, for exact changes between powers of two and of e
+constexpr double kLn2 = std::numbers::ln2;
+constexpr double kLn2Tail = 2.3190468138462996e-17;
+
+/// Writes matrix, trace and multipliers, all divided by one exp(log_scale) if the largest of them would pass 1e300.
+void write_matrix(Stability& result, const Monodromy& monodromy, const std::vector<Multiplier>& multipliers) {
+  const auto& m = monodromy.matrix.value;
+  const Eigen::Index n = m.mantissa.rows(), d = n / 2;
+  Eigen::MatrixXd matrix = m.mantissa;  // (q, q'/kappa) -> (q, q')
+  matrix.topRightCorner(d, d) /= monodromy.kappa;
+  matrix.bottomLeftCorner(d, d) *= monodromy.kappa;
+  const auto exponent = static_cast<double>(m.exponent);
+  double largest = std::log(std::max(matrix.cwiseAbs().maxCoeff(), std::abs(matrix.trace()))) + exponent * kLn2;
+  for (const auto& multiplier : multipliers) largest = std::max(largest, multiplier.log_modulus);
+  const bool scaled = largest > kLogLargest;
+  if (scaled) {
+    result.log_scale = exponent * kLn2;
+    const double rest = std::fma(exponent, kLn2, -result.log_scale) + exponent * kLn2Tail;
+    matrix *= std::exp(rest);
+  } else {
+    matrix = matrix.unaryExpr([e = static_cast<int>(std::max(m.exponent, -5000L))](double x) { return std::ldexp(x, e); });
+  }
+  result.matrix = matrix;
+  result.discriminant = matrix.trace();
+  for (const auto& multiplier : multipliers) {
+    result.multipliers.push_back(std::exp(multiplier.log_modulus - result.log_scale) * multiplier.direction);
+  }
+}
+
+Stability begin(const Monodromy& monodromy, double period) {
+  Stability result;
+  result.error = monodromy.error;
+  result.method = monodromy.method;
+  result.outcome = monodromy.outcome;
+  result.cost = monodromy.cost;
+  result.estimate_cost = monodromy.estimate_cost;
+  (void)period;
+  return result;
+}
+
+bool has_value(const Monodromy& monodromy) {
+  return monodromy.outcome == Outcome::converged || monodromy.outcome == Outcome::tolerance_not_reached;
+}
+
+void finish(Stability& result, const Margin& margin, double growth, double period) {
+  result.margin = margin.value;
+  result.margin_error = margin.error;
+  result.verdict = verdict_of(margin);
+  result.growth = growth;
+  result.growth_per_time = growth / period;
+}
+
+}  // namespace
+
+Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts) {
+  const double period = equation.period();
+  auto result = begin(monodromy, period);
+  if (!has_value(monodromy)) return result;
+  const auto discriminant = discriminant_gap(monodromy);
+  const double h = monodromy.half_damping;
+  finish(result, hill_margin(discriminant, h), hill_growth(discriminant, h), period);
+  if (parts.winding) {
+    const double c = equation.canonical_damping();
+    result.winding = winding_number(equation.coefficient.plus(-0.25 * c * c), monodromy.undamped, discriminant,
+                                    equation.canonical_kappa());
+  }
+  if (parts.matrix) write_matrix(result, monodromy, hill_multipliers(discriminant, h));
+  return result;
+}
+
+Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts) {
+  auto result = begin(monodromy, system.period);
+  if (!has_value(monodromy)) return result;
+  try {
+    const auto proportional = system.proportional_damping();
+    const bool reciprocal = proportional && *proportional >= 0.0 && system.stiffness.is_symmetric() &&
+                            system.mass == system.mass.transpose();
+    const auto multipliers =
+        parts.matrix || !reciprocal ? system_multipliers(monodromy.matrix) : std::vector<Multiplier>{};
+    const auto stability = reciprocal
+                               ? reciprocal_stability(monodromy.undamped, system.mass, monodromy.half_damping)
+                               : general_stability(multipliers);
+    finish(result, stability.margin, stability.growth, system.period);
+    if (parts.matrix) write_matrix(result, monodromy, multipliers);
+  } catch (const NumericalFailure&) {
+    result.outcome = Outcome::failed;
+  }
+  return result;
+}
+
+std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system) {
+  const auto c = system.proportional_damping();
+  if (system.degrees_of_freedom() != 1 || !c || *c < 0.0) return std::nullopt;
+  const double mass = system.mass(0, 0);
+  std::vector<Harmonic> harmonics;
+  for (const auto& h : system.stiffness.harmonics) {
+    harmonics.push_back({h.order, h.cosine.size() > 0 ? h.cosine(0, 0) / mass : 0.0,
+                         h.sine.size() > 0 ? h.sine(0, 0) / mass : 0.0});
+  }
+  const auto w = PeriodicFunction::fourier(system.stiffness.mean(0, 0) / mass, std::move(harmonics));
+  return hill_equation(system.period, w, *c);
+}
+
+Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options,
+                  const StabilityParts& parts) {
+  if (const auto* equation = std::get_if<HillEquation>(&model)) {
+    return assess(*equation, engine.compute(*equation, options), parts);
+  }
+  const auto& system = std::get<LinearPeriodicSystem>(model);
+  if (const auto equation = as_hill_equation(system)) return assess(*equation, engine.compute(*equation, options), parts);
+  return assess(system, engine.compute(system, options), parts);
+}
+
+}  // namespace strutt
