@@ -12,6 +12,9 @@ constexpr double kUnit = 0x1p-53;
 // Roundings of one entry: argument, function value, two products and a quotient; generously.
 constexpr double kEntryError = 12.0 * kUnit;
 
+// Non-zero entries below this may be lost to underflow on the way to a margin: nothing is proved by them.
+constexpr double kTiny = 1e-290;
+
 struct CosSin {
   double cosine, sine;
 };
@@ -79,7 +82,9 @@ BoundedMatrix constant_propagator(double w, double half_turns, double kappa, dou
   } else {
     result.value.mantissa(0, 1) = kappa * length;
   }
-  result.error += kEntryError * result.value.mantissa.cwiseAbs();
+  result.error += result.value.mantissa.unaryExpr([](double x) {
+    return kEntryError * std::abs(x) + (x != 0.0 && std::abs(x) < kTiny ? kTiny : 0.0);
+  });
   if (w == 0.0) result.error(0, 0) = result.error(1, 1) = 0.0;
   add_coefficient_error(result, w, length, kappa, coefficient_error);
   result.normalise();

@@ -154,7 +154,9 @@ Monodromy MonodromyEngine::compute(const HillEquation& equation, const Monodromy
   auto w = centre ? equation.coefficient.centred(theta0) : equation.coefficient;
   if (c != 0.0) w = w.plus(-0.25 * c * c);  // of y = exp(ct/2) x
   // With an even coefficient half a period is enough; theta0 is cut out because M is wanted from t = 0.
-  const auto segments = make_segments(w, 0.0, centre ? pi : 2.0 * pi, theta0);
+  const auto pieces = smooth_pieces(w, 0.0, centre ? pi : 2.0 * pi, theta0);
+  // A closed form is exact over a whole piece: cutting it would turn zeros that are proved into rounding.
+  const auto segments = method == Method::exact ? pieces : subdivided(pieces, w);
 
   const auto integrate = [&](double local_tolerance) {
     Propagators result;

@@ -11,15 +11,20 @@ constexpr double kRadians = 8.0;
 
 }  // namespace
 
-std::vector<Segment> make_segments(const PeriodicFunction& w, double from, double to, double cut) {
+std::vector<Segment> smooth_pieces(const PeriodicFunction& w, double from, double to, double cut) {
   std::vector<double> ends = w.breakpoints(from, to);
   if (cut > from && cut < to) ends.push_back(cut);
   ends.push_back(to);
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   std::vector<Segment> result;
-  double start = from;
-  for (const double end : ends) {
+  for (const double end : ends) result.push_back({result.empty() ? from : result.back().to, end});
+  return result;
+}
+
+std::vector<Segment> subdivided(const std::vector<Segment>& pieces, const PeriodicFunction& w) {
+  std::vector<Segment> result;
+  for (const auto& [start, end] : pieces) {
     const auto piece = w.piece(0.5 * (start + end));
     const double log_growth = std::sqrt(std::max(0.0, -piece.lower_bound())) * (end - start);
     const double radians = std::sqrt(piece.bound()) * (end - start);
@@ -27,7 +32,6 @@ std::vector<Segment> make_segments(const PeriodicFunction& w, double from, doubl
     for (double j = 0.0; j < parts; ++j) {
       result.push_back({std::lerp(start, end, j / parts), std::lerp(start, end, (j + 1.0) / parts)});
     }
-    start = end;
   }
   return result;
 }

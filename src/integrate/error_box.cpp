@@ -22,12 +22,15 @@ void ErrorBox::advance(const Eigen::Matrix2d& propagator, double added) {
   const double second = image.col(1).stableNorm() * radii_[1];
   Eigen::Vector2d longer = first >= second ? image.col(0) : image.col(1);
   const double length = longer.stableNorm();
-  if (!(length > 0.0)) longer = Eigen::Vector2d::UnitX();
-  else longer /= length;
+  if (!(length > 0.0))
+    longer = Eigen::Vector2d::UnitX();
+  else
+    longer /= length;
   Eigen::Matrix2d turned;
   turned << longer[0], -longer[1], longer[1], longer[0];
   const Eigen::Vector2d noise = Eigen::Vector2d::Constant(added);
-  radii_ = kSlack * ((turned.transpose() * image).cwiseAbs() * radii_ + turned.cwiseAbs().transpose() * noise);
+  radii_ =
+      kSlack * ((turned.transpose() * image).cwiseAbs() * radii_ + turned.cwiseAbs().transpose() * noise);
   axes_ = turned;
   if (!turned.allFinite() || !radii_.allFinite()) {
     axes_.setIdentity();

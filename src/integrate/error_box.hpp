@@ -4,9 +4,9 @@
 
 namespace strutt::detail {
 
-/// The errors that a state of two components can have, as a parallelogram of right angles that turns with the flow
-/// (Lohner's method with approximate propagators): { Q e : |e_i| <= r_i }. It neither grows under a rotation nor
-/// exceeds the growth that the propagators have.
+/// The errors that a state of two components can have, as a parallelogram of right angles that turns with the
+/// flow (Lohner's method with approximate propagators): { Q e : |e_i| <= r_i }. It neither grows under a
+/// rotation nor exceeds the growth that the propagators have.
 class ErrorBox {
  public:
   explicit ErrorBox(const Eigen::Vector2d& radii) : radii_(radii) {}

@@ -22,16 +22,19 @@ constexpr double kUnit = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// How much the difference of the two runs is trusted. The reference tests hold the bound above the true error.
+// How much the difference of the two runs is trusted. The reference tests hold the bound above the true
+// error.
 constexpr double kSafety = 4.0;
-// Rounding, in units of 2^-53. Of the largest state of a segment: once, and a step. Of the restoring force, a radian:
-// between the inputs and the coefficients (alpha^2: 6, frequency^2: 1, harmonics: 4), value of W and sine, phase.
+// Rounding, in units of 2^-53. Of the largest state of a segment: once, and a step. Of the restoring force, a
+// radian: between the inputs and the coefficients (alpha^2: 6, frequency^2: 1, harmonics: 4), value of W and
+// sine, phase.
 constexpr double kRoundingOnce = 3.0;
 constexpr double kRoundingPerStep = 1.5;
 constexpr double kRoundingPerRadian = 16.0;
 
-// The run that checks ARKODE's order 8: a formula of lower order at the same tolerance, whose error is larger even where
-// both take the same steps. CVODE is checked by order 8, which is far more accurate at the same tolerance.
+// The run that checks ARKODE's order 8: a formula of lower order at the same tolerance, whose error is larger
+// even where both take the same steps. CVODE is checked by order 8, which is far more accurate at the same
+// tolerance.
 constexpr int kMainOrder = 8;
 constexpr int kCheckOrder = 6;
 
@@ -43,11 +46,13 @@ constexpr double kNoStep = 1e-12;
 
 constexpr double kTightest = 1e-14;
 constexpr double kLoosest = 1e-4;
-constexpr int kPasses = 4;
+constexpr int kPasses = 6;
 // Keeps tolerances of a state that is exactly 0 positive.
 constexpr double kSmallestState = 1e-200;
 
-Backend backend_of(Method method) { return method == Method::cvode ? Backend::cvode_adams : Backend::arkode_erk; }
+Backend backend_of(Method method) {
+  return method == Method::cvode ? Backend::cvode_adams : Backend::arkode_erk;
+}
 
 /// One integration of all times, in ascending order of them, at one local tolerance.
 class Pass {
@@ -58,17 +63,20 @@ class Pass {
         alpha_(alpha),
         tolerance_(local_tolerance),
         main_(2, {.backend = backend_of(options.method), .order = kMainOrder}),
-        check_(6, {.backend = Backend::arkode_erk, .order = options.method == Method::cvode ? kMainOrder : kCheckOrder}) {}
+        check_(6, {.backend = Backend::arkode_erk,
+                   .order = options.method == Method::cvode ? kMainOrder : kCheckOrder}) {}
 
-  /// `order`: indices into `points` by ascending time. Improves the points where its bound is the smaller one.
-  Outcome run(const MotionStart& start, const std::vector<std::size_t>& order, std::vector<MotionPoint>& points,
-              long max_steps);
+  /// `order`: indices into `points` by ascending time. Improves the points where its bound is the smaller
+  /// one.
+  Outcome run(const MotionStart& start, const std::vector<std::size_t>& order,
+              std::vector<MotionPoint>& points, long max_steps);
 
   const IntegrationCost& cost() const { return cost_; }
   const IntegrationCost& estimate_cost() const { return estimate_cost_; }
 
  private:
-  Outcome cross(const Segment& segment, const std::vector<double>& offsets, const std::vector<MotionPoint*>& targets);
+  Outcome cross(const Segment& segment, const std::vector<double>& offsets,
+                const std::vector<MotionPoint*>& targets);
   Trajectory integrate(Integrator& integrator, const Segment& segment, const Eigen::VectorXd& state,
                        const std::vector<double>& offsets, double size, bool is_check);
   /// Bound of what the moment adds to v in a segment.
@@ -94,11 +102,12 @@ class Pass {
   IntegrationCost estimate_cost_;
 };
 
-Outcome Pass::run(const MotionStart& start, const std::vector<std::size_t>& order, std::vector<MotionPoint>& points,
-                  long max_steps) {
+Outcome Pass::run(const MotionStart& start, const std::vector<std::size_t>& order,
+                  std::vector<MotionPoint>& points, long max_steps) {
   max_steps_ = max_steps;
   const double fixed = options_.about == Equilibrium::inverted ? 1.0 : 0.0;
-  const SplitAngle angle = options_.linear ? detail::split_angle(start.angle, fixed) : detail::split_angle(start.angle);
+  const SplitAngle angle =
+      options_.linear ? detail::split_angle(start.angle, fixed) : detail::split_angle(start.angle);
   half_turns_ = angle.half_turns;
   state_ << angle.rest, start.velocity / (equation_.kappa() * equation_.frequency());
   errors_ = ErrorBox(4.0 * kUnit * state_.cwiseAbs());
@@ -168,7 +177,8 @@ Outcome Pass::cross(const Segment& segment, const std::vector<double>& offsets,
   std::size_t early = 0;
   for (; early < offsets.size() && offsets[early] < kNoStep * segment.length; ++early) {
     const Eigen::Vector2d moved = state_ + offsets[early] * slope(segment);
-    record(*targets[early], half_turns_, moved, errors_.bound(Eigen::Matrix2d::Identity())[0] + rounding(segment, size, 0));
+    record(*targets[early], half_turns_, moved,
+           errors_.bound(Eigen::Matrix2d::Identity())[0] + rounding(segment, size, 0));
   }
   std::vector<double> times(offsets.begin() + static_cast<std::ptrdiff_t>(early), offsets.end());
   times.push_back(segment.length);
@@ -238,9 +248,10 @@ double tightened(double local, double tolerance, const std::vector<MotionPoint>&
   for (const auto& point : points) {
     if (std::isfinite(point.error)) worst = std::max(worst, point.error);
   }
-  const bool all_finite = std::all_of(points.begin(), points.end(), [](const auto& p) { return std::isfinite(p.error); });
+  const bool all_finite =
+      std::all_of(points.begin(), points.end(), [](const auto& p) { return std::isfinite(p.error); });
   if ((all_finite && worst <= tolerance) || local <= kTightest) return 0.0;
-  const double factor = worst > tolerance ? 0.3 * tolerance / worst : 0.01;
+  const double factor = worst > tolerance ? 0.3 * tolerance / worst : 1e-3;
   return std::max(local * std::clamp(factor, 1e-4, 0.3), kTightest);
 }
 
@@ -255,7 +266,8 @@ void MotionOptions::validate() const {
 }
 
 Motion integrate_motion(const PhysicalPendulum& pendulum, const Excitation* support, const Excitation* moment,
-                        const MotionStart& start, std::span<const double> times, const MotionOptions& options) {
+                        const MotionStart& start, std::span<const double> times,
+                        const MotionOptions& options) {
   options.validate();
   require(std::abs(start.angle) <= 1e9, "angle", start.angle, "between -1e9 and 1e9 rad");
   require(std::isfinite(start.velocity), "velocity", start.velocity, "finite");

@@ -20,7 +20,8 @@ constexpr double kSegmentRadians = 3.0;
 // Jumps closer to each other, or to the end of the turn, than this are one.
 constexpr double kSamePhase = 4e-15;
 
-double checked_frequency(const PhysicalPendulum& pendulum, const Excitation* support, const Excitation* moment) {
+double checked_frequency(const PhysicalPendulum& pendulum, const Excitation* support,
+                         const Excitation* moment) {
   const bool beats = moment != nullptr && !moment->function.is_constant();
   const auto valid = [](const char* name, double value) {
     require(value > 0.0 && std::isfinite(value), name, value, "a finite number > 0");
@@ -48,8 +49,8 @@ double joined(const SplitAngle& angle) {
   return product + (angle.rest + low);
 }
 
-MotionEquation::MotionEquation(const PhysicalPendulum& pendulum, const Excitation* support, const Excitation* moment,
-                               bool linear)
+MotionEquation::MotionEquation(const PhysicalPendulum& pendulum, const Excitation* support,
+                               const Excitation* moment, bool linear)
     : linear_(linear) {
   pendulum.validate();
   frequency_ = checked_frequency(pendulum, support, moment);
@@ -110,7 +111,8 @@ double MotionEquation::offset(const Segment& s, const Phase& phase) const {
 
 double MotionEquation::radians(const Segment& s) const { return s.length * (kappa_ + damping_); }
 
-void MotionEquation::derivative(const Segment& s, double half_turns, double offset, StateView y, StateOut dydt) const {
+void MotionEquation::derivative(const Segment& s, double half_turns, double offset, StateView y,
+                                StateOut dydt) const {
   const double theta = s.begin + offset;
   const double sign = std::fmod(half_turns, 2.0) == 0.0 ? 1.0 : -1.0;
   const double stiffness = sign * pieces_[s.piece].coefficient(theta) / kappa_;

@@ -6,7 +6,8 @@
 
 namespace strutt::detail {
 
-/// A phase as whole turns and a rest of twice the working precision: 2 pi turns + high + low, 0 <= high < 2 pi.
+/// A phase as whole turns and a rest of twice the working precision: 2 pi turns + high + low, 0 <= high < 2
+/// pi.
 struct Phase {
   double turns = 0.0;
   double high = 0.0;
@@ -28,16 +29,18 @@ struct Segment {
   double turn = 0.0;
   std::size_t piece = 0;
   double part = 0.0;
-  double begin = 0.0;   ///< phase within the turn
+  double begin = 0.0;  ///< phase within the turn
   double length = 0.0;
 };
 
 /// Equation (7) in the phase theta = frequency t and the scaled state (x, v), x = angle - half_turns pi,
 /// dx/dtheta = kappa v:
-///   dv/dtheta = [F(theta) - s W(theta) S(x)]/kappa - d v,   S(x) = sin x or x,   s = +-1 with the parity of half_turns.
+///   dv/dtheta = [F(theta) - s W(theta) S(x)]/kappa - d v,   S(x) = sin x or x,   s = +-1 with the parity of
+///   half_turns.
 class MotionEquation {
  public:
-  MotionEquation(const PhysicalPendulum& pendulum, const Excitation* support, const Excitation* moment, bool linear);
+  MotionEquation(const PhysicalPendulum& pendulum, const Excitation* support, const Excitation* moment,
+                 bool linear);
 
   double frequency() const { return frequency_; }
   double kappa() const { return kappa_; }
@@ -55,8 +58,8 @@ class MotionEquation {
   /// Upper bound, in radians, of how far the motion turns in a segment.
   double radians(const Segment& segment) const;
 
-  /// Time derivative of (x, v), and with 6 components that of (x, v, first column, second column) of the variational
-  /// equation, at `offset` behind the beginning of the segment.
+  /// Time derivative of (x, v), and with 6 components that of (x, v, first column, second column) of the
+  /// variational equation, at `offset` behind the beginning of the segment.
   void derivative(const Segment& segment, double half_turns, double offset, StateView y, StateOut dydt) const;
 
  private:

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace strutt::app {
+
+/// What the user wrote for every subcommand. Numbers stay text until they are read strictly
+/// (scene_arguments.hpp).
+struct CommonArguments {
+  std::string scene;
+  std::optional<std::string> tolerance;
+  std::optional<std::string> method;
+  std::optional<std::string> threads;
+  std::vector<std::string> set;
+  std::optional<std::string> output;
+  bool json = false;
+  bool quiet = false;
+  bool force = false;
+  bool dry_run = false;
+  std::string command;  ///< the command line as recorded in files: without what does not change the data
+};
+
+struct ChartArguments : CommonArguments {
+  std::optional<std::string> x;
+  std::optional<std::string> y;
+  std::optional<std::string> layers;
+  std::optional<std::string> figure;
+};
+
+struct StabilityArguments : CommonArguments {
+  std::optional<std::string> points;
+};
+
+struct MotionArguments : CommonArguments {
+  std::string angle;
+  std::string velocity;
+  std::optional<std::string> duration;
+  std::optional<std::string> samples;
+  std::optional<std::string> times;
+  bool linear = false;
+};
+
+/// --help or --version: text for standard output, nothing else to do.
+struct Information {
+  std::string text;
+};
+
+using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments>;
+
+}  // namespace strutt::app

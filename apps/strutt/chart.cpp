@@ -1,0 +1,193 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "chart_json.hpp"
+#include "commands.hpp"
+#include "scene_arguments.hpp"
+#include "signals.hpp"
+#include "strutt/base/error.hpp"
+#include "strutt/io/figure.hpp"
+#include "terminal.hpp"
+
+namespace strutt::app {
+namespace {
+
+std::vector<Layer> layers_of(const std::string& text) {
+  std::vector<Layer> layers;
+  for (std::size_t begin = 0;;) {
+    const auto end = text.find(',', begin);
+    const std::string name = text.substr(begin, end == std::string::npos ? end : end - begin);
+    try {
+      layers.push_back(layer_from_string(name));
+    } catch (const InvalidInput& error) {
+      throw UsageError(std::string("--layers: ") + error.what());
+    }
+    if (end == std::string::npos) return layers;
+    begin = end + 1;
+  }
+}
+
+Axis chosen_axis(const std::string& name, const std::optional<std::string>& flag,
+                 const std::optional<Axis>& file,
+                 const Scene& scene) {
+  if (flag) return axis_of("--" + name, *flag, scene);
+  if (file) return *file;
+  throw UsageError("the " + name + " axis is missing: give --" + name + " P=FROM:TO:N, or " + name +
+                   " in the table [chart] of the scene");
+}
+
+ChartRequest request_of(const ChartArguments& arguments, const SceneFile& scene) {
+  ChartRequest request;
+  request.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(request.tolerance));
+  request.method = method_of(arguments, "chart", {Method::cvode, Method::arkode, Method::exact});
+  request.threads = threads_of(arguments);
+  request.x = chosen_axis("x", arguments.x, scene.chart.x, scene.scene);
+  request.y = chosen_axis("y", arguments.y, scene.chart.y, scene.scene);
+  if (arguments.layers)
+    request.layers = layers_of(*arguments.layers);
+  else if (scene.chart.layers)
+    request.layers = *scene.chart.layers;
+  request.force = arguments.force;
+  request.cancel = &cancel_flag();
+  return request;
+}
+
+/// The plan; what is wrong with a chart that stands in the scene file alone is the fault of the file.
+ChartPlan plan_of(const ChartArguments& arguments, const SceneFile& scene, const ChartRequest& request) {
+  const bool flags =
+      arguments.x || arguments.y || arguments.layers || arguments.method || !arguments.set.empty();
+  try {
+    return plan_chart(scene.scene, request);
+  } catch (const InvalidInput& error) {
+    if (flags) throw;
+    throw FileError(scene.file, 0, 0, std::string("[chart]: ") + error.what());
+  }
+}
+
+/// The request with the layers that only the figure needs behind the others.
+ChartRequest with_figure_layers(ChartRequest request) {
+  for (const Layer layer : ChartFigure::layers()) {
+    if (std::find(request.layers.begin(), request.layers.end(), layer) == request.layers.end()) {
+      request.layers.push_back(layer);
+    }
+  }
+  return request;
+}
+
+/// The effective scene: what the flags said stands in its [chart].
+SceneFile effective(SceneFile scene, const ChartRequest& request) {
+  scene.chart = {.x = request.x, .y = request.y, .layers = request.layers, .tolerance = request.tolerance};
+  return scene;
+}
+
+std::vector<std::string> plan_lines(const ChartRequest& request, const ChartPlan& plan) {
+  return {fmt::format("cells: {} ({} x {})", plan.cells, request.x.points, request.y.points),
+          fmt::format("memory: {:.3g} MB at work, {:.3g} MB of results, budget {:.3g} MB",
+                      plan.working_bytes / 1e6, plan.result_bytes / 1e6, plan.budget_bytes / 1e6),
+          fmt::format("expected time: {:.2g} s", plan.expected_seconds),
+          "method: " + std::string(to_string(plan.method)),
+          "tolerance: " + to_text(request.tolerance),
+          fmt::format("threads: {}", plan.threads)};
+}
+
+std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
+                                        const ChartDescription& description) {
+  const auto path = data_path(arguments);
+  if (!arguments.json) return make_chart_writer(path, description);
+  const bool text = path == "-" || path.extension() == ".json" || path.string().starts_with("/dev/");
+  if (!text) throw UsageError("--json writes JSON: -o '" + path.string() + "' must end in .json");
+  return std::make_unique<JsonChartWriter>(path, description);
+}
+
+/// Hands the strips to the data file (the layers asked for) and to the figure (all of them).
+class Sinks {
+ public:
+  Sinks(const ChartArguments& arguments, const ChartDescription& description, const ChartRequest& computed)
+      : layers_(description.request.layers.size()), writer_(writer_for(arguments, description)) {
+    if (!arguments.figure) return;
+    ChartDescription all = description;
+    all.request = computed;
+    figure_.emplace(*arguments.figure, all);
+  }
+
+  void add(const ChartStrip& strip) {
+    if (figure_) figure_->add(strip);
+    if (strip.values.size() == layers_) return writer_->write(strip);
+    asked_.first_row = strip.first_row;
+    asked_.rows = strip.rows;
+    asked_.columns = strip.columns;
+    asked_.values.assign(strip.values.begin(), strip.values.begin() + static_cast<std::ptrdiff_t>(layers_));
+    writer_->write(asked_);
+  }
+
+  void commit() {
+    writer_->commit();
+    throw_if_interrupted();
+    if (figure_) figure_->commit();
+  }
+
+ private:
+  std::size_t layers_;
+  std::unique_ptr<ChartWriter> writer_;
+  std::optional<ChartFigure> figure_;
+  ChartStrip asked_;
+};
+
+struct Counts {
+  std::size_t unresolved;
+  std::size_t not_converged;
+};
+
+Counts count(const ChartRequest& asked, const ChartSummary& summary) {
+  const bool verdict =
+      std::find(asked.layers.begin(), asked.layers.end(), Layer::verdict) != asked.layers.end();
+  return {verdict ? summary.unresolved : 0,
+          summary.cells - summary.outcomes[static_cast<std::size_t>(Outcome::converged)]};
+}
+
+void summarise(const ChartArguments& arguments, const ChartSummary& summary, const Counts& counts,
+               double seconds) {
+  if (arguments.quiet) return;
+  std::string places = data_path(arguments) == "-" ? "standard output" : data_path(arguments).string();
+  if (arguments.figure) places += " and " + *arguments.figure;
+  print_note(fmt::format("wrote {}: {} cells in {:.3g} s, {} unresolved, {} not converged", places,
+                         summary.cells, seconds, counts.unresolved, counts.not_converged));
+}
+
+}  // namespace
+
+ExitCode run(const ChartArguments& arguments) {
+  const SceneFile scene = load_scene(arguments);
+  const ChartRequest request = request_of(arguments, scene);
+  if (arguments.figure && arguments.figure == arguments.output)
+    throw UsageError("-o and --figure name the same file");
+  const ChartRequest computed = arguments.figure ? with_figure_layers(request) : request;
+  const ChartPlan plan = plan_of(arguments, scene, computed);
+  if (arguments.dry_run) {
+    print_plan(effective(scene, request), plan_lines(request, plan));
+    return ExitCode::done;
+  }
+  warn_about(arguments, scene.scene);
+
+  install_signal_handlers();
+  const ChartDescription description{
+      .x = parameter_info(scene.scene, request.x.parameter),
+      .y = parameter_info(scene.scene, request.y.parameter),
+      .request = request,
+      .provenance = provenance_of(arguments, effective(scene, request), plan.method, request.tolerance)};
+  Sinks sinks(arguments, description, computed);
+  Progress progress(!arguments.quiet, "cells");
+  const ChartSummary summary = compute_chart(
+      scene.scene, computed, [&](const ChartStrip& strip) { sinks.add(strip); },
+      [&](std::size_t done, std::size_t total) { progress.update(done, total); });
+  progress.clear();
+  throw_if_interrupted();
+  sinks.commit();
+  const Counts counts = count(request, summary);
+  summarise(arguments, summary, counts, progress.seconds());
+  return counts.unresolved + counts.not_converged == 0 ? ExitCode::done : ExitCode::unresolved;
+}
+
+}  // namespace strutt::app

@@ -1,0 +1,229 @@
+#include "command_line.hpp"
+
+#include <CLI/CLI.hpp>  // slow to compile: the only file that includes it
+#include <array>
+#include <string_view>
+
+#include "exit_code.hpp"
+#include "strutt/base/error.hpp"
+#include "strutt/io/provenance.hpp"
+
+namespace strutt::app {
+namespace {
+
+constexpr const char* kExitCodes = R"(
+Exit codes: 0 done; 1 done, but something asked for is unresolved or not converged; 2 wrong flag; 3 wrong scene or
+  CSV file; 4 over the memory budget; 5 input/output; 6 numerical failure; 7 internal; 128+n signal n.)";
+
+constexpr const char* kChartExample = R"(
+Example:
+  printf '[mathieu]\nepsilon = 0.5\n' > scene.toml
+  strutt chart scene.toml --x mathieu.delta=-1:5:120 --y mathieu.epsilon=0:6:80 -o chart.csv
+)";
+
+constexpr const char* kStabilityExample = R"(
+Example:
+  printf '[mathieu]\ndelta = 1\nepsilon = 0.5\n' > scene.toml
+  printf 'mathieu.delta\n0.2\n0.3\n' > points.csv
+  strutt stability scene.toml --points points.csv
+)";
+
+constexpr const char* kMotionExample = R"(
+Example:
+  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n' > scene.toml
+  strutt motion scene.toml --angle "30 deg" --velocity 0 --duration 2 --samples 21
+)";
+
+const std::vector<std::string> kCommands{"chart", "stability", "motion"};
+
+// Flags that change neither the numbers nor how they are written, with the number of values they take.
+struct SilentFlag {
+  std::string_view name;
+  bool takes_value;
+};
+constexpr std::array<SilentFlag, 6> kSilentFlags{{{"--threads", true},
+                                                  {"-o", true},
+                                                  {"--output", true},
+                                                  {"--figure", true},
+                                                  {"--quiet", false},
+                                                  {"--force", false}}};
+
+std::string quoted(const std::string& word) {
+  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string result = "'";
+  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+/// The command as recorded: the same for any number of threads and any place of the result.
+std::string recorded_command(int argc, const char* const* argv) {
+  std::string text = "strutt";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    bool silent = false;
+    for (const auto& flag : kSilentFlags) {
+      const bool attached =
+          word.starts_with(std::string(flag.name) + "=") || (flag.name == "-o" && word.starts_with("-o"));
+      if (word != flag.name && !attached) continue;
+      silent = true;
+      if (word == flag.name && flag.takes_value) ++i;
+      break;
+    }
+    if (!silent) text += " " + quoted(word);
+  }
+  return text;
+}
+
+void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
+  command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
+      ->required()
+      ->type_name("SCENE");
+  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
+      ->type_name("T");
+  command.add_option("--method", arguments.method, "auto (default), cvode, arkode, exact")->type_name("M");
+  command.add_option("--threads", arguments.threads, "number of threads (default: all)")->type_name("N");
+  command
+      .add_option("--set", arguments.set,
+                  "change a parameter of the scene; the value may have a unit; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", arguments.output, "where the data go; - or nothing: standard output")
+      ->type_name("FILE");
+  command.add_flag("--json", arguments.json, "write JSON instead of CSV");
+  command.add_flag("--quiet", arguments.quiet, "no progress, summary and warnings");
+  command.add_flag("--force", arguments.force, "lift the memory budget (half of the RAM)");
+  command.add_flag("--dry-run", arguments.dry_run,
+                   "print the effective scene, the model and the plan, and stop");
+  command.set_help_flag("-h,--help", "print this help and exit");
+  command.set_version_flag("--version", "strutt " + version_text(), "print the version and exit");
+  command.allow_extras();  // told apart afterwards, with a suggestion
+}
+
+CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
+  auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
+  add_common(*command, arguments, "largest error of trace and M");
+  command
+      ->add_option("--x", arguments.x,
+                   "horizontal axis: parameter path, ends, number of points, :log for a log axis")
+      ->type_name("P=FROM:TO:N[:log]");
+  command->add_option("--y", arguments.y, "vertical axis")->type_name("P=FROM:TO:N[:log]");
+  command
+      ->add_option("--layers", arguments.layers,
+                   "of verdict,growth,winding,discriminant,margin,outcome (default verdict,growth)")
+      ->type_name("A,B");
+  command->add_option("--figure", arguments.figure, "draw the chart as .png, .svg or .pdf")
+      ->type_name("FILE");
+  command->footer(
+      std::string(
+          "The ending of -o FILE tells the format: .csv, .npy (one layer), .npz, .h5; .json with --json.\n") +
+      kChartExample + kExitCodes);
+  return command;
+}
+
+CLI::App* add_stability(CLI::App& app, StabilityArguments& arguments) {
+  auto* command = app.add_subcommand("stability", "verdict, growth, monodromy matrix of one point or many");
+  add_common(*command, arguments, "largest error of trace and M");
+  command
+      ->add_option("--points", arguments.points, "CSV file whose header names parameters: one result per row")
+      ->type_name("IN.csv");
+  command->footer(std::string(kStabilityExample) + kExitCodes);
+  return command;
+}
+
+CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
+  auto* command = app.add_subcommand("motion", "time series of the pendulum of a scene");
+  add_common(*command, arguments, "largest error of the angle, rad");
+  command->add_option("--angle", arguments.angle, "angle at t = 0 from the hanging position")
+      ->required()
+      ->type_name("RAD");
+  command->add_option("--velocity", arguments.velocity, "angular velocity at t = 0")
+      ->required()
+      ->type_name("RAD_PER_S");
+  command->add_option("--duration", arguments.duration, "last time, with --samples")->type_name("S");
+  command->add_option("--samples", arguments.samples, "number of times from 0 to the duration, both included")
+      ->type_name("N");
+  command->add_option("--times", arguments.times, "CSV file with a column t (s), any order")
+      ->type_name("IN.csv");
+  command->add_flag("--linear", arguments.linear, "the linearised equation");
+  command->footer(std::string(kMotionExample) + kExitCodes);
+  return command;
+}
+
+std::string one_of_the_commands() { return "the commands are chart, stability, motion (see strutt --help)"; }
+
+std::vector<std::string> flag_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const auto* option : command.get_options()) {
+    for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// What is left over is a mistake: the first flag among it, else the first word.
+[[noreturn]] void refuse(const CLI::App& command, const std::vector<std::string>& extras) {
+  std::string word = extras.front();
+  for (const auto& extra : extras) {
+    if (extra.starts_with("-")) {
+      word = extra.substr(0, extra.find('='));
+      break;
+    }
+  }
+  if (!word.starts_with("-")) throw UsageError("unexpected argument '" + word + "'");
+  const std::string close = nearest(word, flag_names(command));
+  throw UsageError("unknown flag '" + word + "'" +
+                   (close.empty() ? " (see strutt " + command.get_name() + " --help)"
+                                  : "; did you mean '" + close + "'?"));
+}
+
+[[noreturn]] void refuse_command(const std::vector<std::string>& extras) {
+  if (extras.empty()) throw UsageError("no command; " + one_of_the_commands());
+  const std::string& word = extras.front();
+  if (word.starts_with("-")) throw UsageError("unknown flag '" + word + "'; " + one_of_the_commands());
+  const std::string close = nearest(word, kCommands);
+  throw UsageError("unknown command '" + word + "'; " +
+                   (close.empty() ? one_of_the_commands() : "did you mean '" + close + "'?"));
+}
+
+}  // namespace
+
+Arguments parse_command_line(int argc, const char* const* argv) {
+  CLI::App app("Stability of linear systems with periodic coefficients, and charts of it.", "strutt");
+  app.set_help_flag("-h,--help", "print this help and exit");
+  app.set_version_flag("--version", "strutt " + version_text(), "print the version and exit");
+  app.footer(std::string("strutt COMMAND --help tells more about each.\n") + kExitCodes);
+  app.allow_extras();
+  ChartArguments chart;
+  StabilityArguments stability;
+  MotionArguments motion;
+  const CLI::App* chart_command = add_chart(app, chart);
+  const CLI::App* stability_command = add_stability(app, stability);
+  const CLI::App* motion_command = add_motion(app, motion);
+
+  const auto chosen = [&]() -> const CLI::App* {
+    const auto commands = app.get_subcommands();
+    return commands.empty() ? nullptr : commands.front();
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return Information{app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    return Information{std::string(version.what()) + "\n"};
+  } catch (const CLI::ParseError& error) {
+    // A misspelt flag often is why a required one seems to be missing.
+    if (chosen() != nullptr && !chosen()->remaining().empty()) refuse(*chosen(), chosen()->remaining());
+    throw UsageError(error.what());
+  }
+  if (chosen() == nullptr) refuse_command(app.remaining());
+  const auto extras = app.remaining(true);
+  if (!extras.empty()) refuse(*chosen(), extras);
+  const std::string command = recorded_command(argc, argv);
+  chart.command = stability.command = motion.command = command;
+  if (chosen() == chart_command) return chart;
+  if (chosen() == stability_command) return stability;
+  if (chosen() == motion_command) return motion;
+  refuse_command({});
+}
+
+}  // namespace strutt::app

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "arguments.hpp"
+#include "exit_code.hpp"
+
+namespace strutt::app {
+
+ExitCode run(const Information& information);
+ExitCode run(const ChartArguments& arguments);
+ExitCode run(const StabilityArguments& arguments);
+ExitCode run(const MotionArguments& arguments);
+
+}  // namespace strutt::app

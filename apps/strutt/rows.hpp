@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "strutt/io/output_file.hpp"
+#include "strutt/io/provenance.hpp"
+
+namespace strutt::app {
+
+/// One column of a result; its unit goes to the `# units:` line ("1" for pure numbers, empty for words).
+struct Column {
+  std::string name;
+  std::string unit;
+};
+
+/// A number, a word, or nothing.
+using Cell = std::variant<std::monostate, double, std::string>;
+
+/// Writes rows as CSV with provenance, or as {"schema_version":1,"provenance":{...},"rows":[{column:
+/// value,...}]}. Numbers read back to the same bits; NaN and infinities are `nan`, `inf`, `-inf`, in JSON as
+/// strings. An empty cell is null in JSON. The file appears under its name with commit(); `-` is standard
+/// output.
+class RowWriter {
+ public:
+  RowWriter(const std::filesystem::path& path, bool json, std::vector<Column> columns,
+            const Provenance& provenance);
+
+  void write(std::span<const Cell> row);
+  void commit();
+
+ private:
+  void write_csv(std::span<const Cell> row);
+  void write_json(std::span<const Cell> row);
+
+  OutputFile file_;
+  bool json_;
+  bool first_ = true;
+  std::vector<Column> columns_;
+  std::string line_;
+};
+
+}  // namespace strutt::app

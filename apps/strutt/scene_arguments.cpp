@@ -1,0 +1,153 @@
+#include "scene_arguments.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "exit_code.hpp"
+#include "strutt/base/error.hpp"
+#include "terminal.hpp"
+
+namespace strutt::app {
+namespace {
+
+/// Splits at every `separator`.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0;;) {
+    const auto end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end == std::string::npos ? end : end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+/// Runs `body`, whose complaints are about a flag.
+template <typename Body>
+auto about_flag(const std::string& flag, const Body& body) {
+  try {
+    return body();
+  } catch (const InvalidInput& error) {
+    throw UsageError(flag + ": " + error.what());
+  }
+}
+
+void apply_set(Scene& scene, const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) throw UsageError("--set " + text + ": wanted is PATH=VALUE");
+  const std::string path = text.substr(0, equals);
+  about_flag("--set " + text, [&] {
+    parameter(scene, path) = parse_quantity(text.substr(equals + 1), parameter_info(scene, path).unit);
+  });
+}
+
+}  // namespace
+
+SceneFile load_scene(const CommonArguments& arguments) {
+  SceneFile file = read_scene(arguments.scene);
+  for (const auto& text : arguments.set) apply_set(file.scene, text);
+  if (!arguments.set.empty()) about_flag("--set", [&] { validate(file.scene); });
+  return file;
+}
+
+double quantity_of(const std::string& flag, const std::string& text, const std::string& dimension) {
+  return about_flag(flag, [&] { return parse_quantity(text, dimension); });
+}
+
+std::uint64_t count_of(const std::string& flag, const std::string& text, std::uint64_t least,
+                       std::uint64_t most) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end || value < least || value > most) {
+    throw UsageError(fmt::format("{} = '{}' is not a whole number from {} to {}", flag, text, least, most));
+  }
+  return value;
+}
+
+double tolerance_of(const CommonArguments& arguments, double otherwise) {
+  if (!arguments.tolerance) return otherwise;
+  double value = 0.0;
+  if (!parse_number(*arguments.tolerance, value) || !(value >= 1e-13 && value <= 1e-2)) {
+    throw UsageError("--tolerance = '" + *arguments.tolerance + "' is not a number from 1e-13 to 1e-2");
+  }
+  return value;
+}
+
+Method method_of(const CommonArguments& arguments, const std::string& command,
+                 const std::vector<Method>& available) {
+  if (!arguments.method) return Method::automatic;
+  const Method method = about_flag("--method", [&] { return method_from_string(*arguments.method); });
+  if (method == Method::automatic) return method;
+  if (std::find(available.begin(), available.end(), method) != available.end()) return method;
+  std::string names = "auto";
+  for (const Method other : available) names += ", " + std::string(to_string(other));
+  throw UsageError("--method " + *arguments.method + " is not available for " + command + "; available are " +
+                   names);
+}
+
+int threads_of(const CommonArguments& arguments) {
+  constexpr std::uint64_t kMost = 1024;
+  return arguments.threads ? static_cast<int>(count_of("--threads", *arguments.threads, 1, kMost)) : 0;
+}
+
+Axis axis_of(const std::string& flag, const std::string& text, const Scene& scene) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
+  const std::string wanted = flag + " " + text + ": wanted is P=FROM:TO:N or P=FROM:TO:N:log";
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) throw UsageError(wanted);
+  const auto parts = split(text.substr(equals + 1), ':');
+  const bool scaled = parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear");
+  if (parts.size() != 3 && !scaled) throw UsageError(wanted);
+  Axis axis;
+  axis.parameter = text.substr(0, equals);
+  return about_flag(flag, [&] {
+    const std::string unit = parameter_info(scene, axis.parameter).unit;
+    axis.from = parse_quantity(parts[0], unit);
+    axis.to = parse_quantity(parts[1], unit);
+    axis.points = count_of("the number of points", parts[2], 1, kMost);
+    if (scaled && parts[3] == "log") axis.scale = AxisScale::logarithmic;
+    axis.validate(flag.substr(flag.find_first_not_of('-')));
+    return axis;
+  });
+}
+
+std::filesystem::path data_path(const CommonArguments& arguments) {
+  return arguments.output && !arguments.output->empty() ? *arguments.output : "-";
+}
+
+Provenance provenance_of(const CommonArguments& arguments, const SceneFile& scene, Method method,
+                         double tolerance) {
+  Provenance provenance = make_provenance(arguments.command);
+  provenance.emplace_back("model", describe(scene.scene));
+  provenance.emplace_back("method", to_string(method));
+  provenance.emplace_back("tolerance", to_text(tolerance));
+  provenance.emplace_back("scene", to_toml(scene));
+  return provenance;
+}
+
+void warn_about(const CommonArguments& arguments, const Scene& scene) {
+  if (arguments.quiet || !scene.moment || scene.moment->constant == 0.0) return;
+  print_warning(
+      "the scene has a constant moment: it shifts the equilibrium, but the linearisation stays at " +
+      std::string(scene.pendulum && scene.pendulum->about == Equilibrium::inverted ? "pi" : "0"));
+}
+
+void require_memory(const CommonArguments& arguments, double bytes) {
+  const double budget =
+      0.5 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (arguments.force || bytes <= budget) return;
+  throw MemoryBudgetExceeded(
+      fmt::format("this needs {:.3g} GB of memory, the budget is {:.3g} GB; --force lifts it", bytes / 1e9,
+                  budget / 1e9));
+}
+
+void print_plan(const SceneFile& scene, const std::vector<std::string>& lines) {
+  std::string text = "# model: " + describe(scene.scene) + "\n";
+  for (const auto& line : lines) text += "# " + line + "\n";
+  print_text(text + "\n" + to_toml(scene));
+}
+
+}  // namespace strutt::app

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+#include "strutt/base/method.hpp"
+#include "strutt/io/provenance.hpp"
+#include "strutt/io/scene_file.hpp"
+
+namespace strutt::app {
+
+/// The scene of the command line with every --set applied. Throws FileError for what is wrong in the file,
+/// UsageError for what is wrong in --set.
+SceneFile load_scene(const CommonArguments& arguments);
+
+/// The value of a flag, a number or a number with a unit. Throws UsageError naming the flag.
+double quantity_of(const std::string& flag, const std::string& text, const std::string& dimension);
+
+/// A whole number in [least, most], digits only. Throws UsageError naming the flag and the range.
+std::uint64_t count_of(const std::string& flag, const std::string& text, std::uint64_t least,
+                       std::uint64_t most);
+
+/// --tolerance, or `otherwise` if it was not given. Throws UsageError naming the range.
+double tolerance_of(const CommonArguments& arguments, double otherwise = 1e-9);
+
+/// --method, which must be one of `available` (besides auto). Throws UsageError naming them.
+Method method_of(const CommonArguments& arguments, const std::string& command,
+                 const std::vector<Method>& available);
+
+/// --threads, 0 if it was not given.
+int threads_of(const CommonArguments& arguments);
+
+/// The axis of a flag "P=FROM:TO:N[:log]". Throws UsageError.
+Axis axis_of(const std::string& flag, const std::string& text, const Scene& scene);
+
+/// Where the data go: `-` for standard output.
+std::filesystem::path data_path(const CommonArguments& arguments);
+
+/// Provenance with command, scene, model, method and tolerance.
+Provenance provenance_of(const CommonArguments& arguments, const SceneFile& scene, Method method,
+                         double tolerance);
+
+/// Tells on standard error what a user may not expect of the scene.
+void warn_about(const CommonArguments& arguments, const Scene& scene);
+
+/// Throws MemoryBudgetExceeded if `bytes` are more than half of the memory, unless --force was given.
+void require_memory(const CommonArguments& arguments, double bytes);
+
+/// --dry-run: scene and model, then the lines of the plan, on standard output.
+void print_plan(const SceneFile& scene, const std::vector<std::string>& lines);
+
+}  // namespace strutt::app

@@ -1,0 +1,181 @@
+// Laws that every model and every method must obey, and the cost of the computation.
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/stability.hpp"
+
+using namespace strutt;
+
+namespace {
+
+constexpr double kTolerance = 1e-10;
+
+/// Equations of every kind: even, odd, no symmetry, damped, growing, fast, jumping.
+std::vector<HillEquation> zoo() {
+  std::vector<HillEquation> result = {
+      mathieu_delta_epsilon(1.0, 0.5), mathieu_delta_epsilon(0.3, 0.0), mathieu_delta_epsilon(-0.4, 2.0),
+      mathieu_a_q(3.0, 1.5, 0.1), mathieu_delta_epsilon(40.0, 15.0, 0.02)};
+  const auto rod = PhysicalPendulum::uniform_rod(1.0, 1.0, 9.81, 0.1);
+  const auto sine = sinusoidal_support(0.1, 7.0, 0.4), square = square_acceleration_support(0.05, 20.0, 1.0);
+  result.push_back(linearise(rod, Equilibrium::hanging, &sine).equation);
+  result.push_back(linearise(rod, Equilibrium::inverted, &square).equation);
+  result.push_back(hill_equation(1.7, PeriodicFunction::fourier(2.0, {{1, 0.7, 0.2}, {2, -0.3, 0.9}}), 0.3));
+  result.push_back(hill_equation(3.0, PeriodicFunction::square(1.0, 3.0, 0.0)));
+  return result;
+}
+
+Eigen::Matrix2d plain(const Monodromy& m) { return m.matrix.value.mantissa * std::ldexp(1.0, static_cast<int>(m.matrix.value.exponent)); }
+
+/// Tolerance of a comparison: the bounds of both sides, in absolute terms.
+double allowance(const Monodromy& m) { return m.error * std::max(1.0, plain(m).cwiseAbs().maxCoeff()); }
+
+HillEquation shifted(HillEquation equation, double phase) {
+  equation.coefficient = equation.coefficient.shifted(phase);
+  return equation;
+}
+
+/// The same equation seen over two of its periods. Only for the Fourier form.
+HillEquation doubled(const HillEquation& equation) {
+  std::vector<Harmonic> harmonics;
+  for (const auto& h : equation.coefficient.harmonics()) harmonics.push_back({2 * h.order, 4.0 * h.cosine, 4.0 * h.sine});
+  return {equation.angular_frequency / 2.0, equation.damping,
+          PeriodicFunction::fourier(4.0 * equation.coefficient.mean(), harmonics), equation.coefficient_error};
+}
+
+}  // namespace
+
+TEST_CASE("det M is exp(-cT)", "[floquet][law]") {
+  MonodromyEngine engine;
+  for (const auto method : {Method::automatic, Method::arkode, Method::cvode}) {
+    for (const auto& equation : zoo()) {
+      const auto m = engine.compute(equation, {.tolerance = kTolerance, .method = method});
+      const auto matrix = plain(m);
+      const double size = std::max(1.0, matrix.cwiseAbs().maxCoeff());
+      CHECK(std::abs(matrix.determinant() - std::exp(-equation.damping * equation.period())) <= 4.0 * size * allowance(m));
+      CHECK(m.determinant_defect <= 1e-9);
+    }
+  }
+}
+
+TEST_CASE("M over two periods is M squared", "[floquet][law]") {
+  MonodromyEngine engine;
+  for (const auto method : {Method::arkode, Method::cvode}) {
+    for (const auto& equation : zoo()) {
+      if (!equation.coefficient.breakpoints(0.0, 7.0).empty()) continue;
+      const auto once = engine.compute(equation, {.tolerance = kTolerance, .method = method});
+      const auto twice = engine.compute(doubled(equation), {.tolerance = kTolerance, .method = method});
+      // the scaled state differs: kappa is at least the angular frequency
+      Eigen::Matrix2d rescale = Eigen::Vector2d(1.0, once.kappa / twice.kappa).asDiagonal();
+      const Eigen::Matrix2d square = rescale * plain(once) * plain(once) * rescale.inverse();
+      const double size = std::max(1.0, plain(once).cwiseAbs().maxCoeff());
+      CHECK((square - plain(twice)).cwiseAbs().maxCoeff() <= 4.0 * size * allowance(once) * 4.0 + allowance(twice));
+    }
+  }
+}
+
+TEST_CASE("Multipliers do not depend on where the period begins", "[floquet][law]") {
+  MonodromyEngine engine;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> phase(-7.0, 7.0);
+  for (const auto method : {Method::automatic, Method::arkode}) {
+    for (const auto& equation : zoo()) {
+      const auto m = engine.compute(equation, {.tolerance = kTolerance, .method = method});
+      const auto other = engine.compute(shifted(equation, phase(random)), {.tolerance = kTolerance, .method = method});
+      CHECK(std::abs(plain(m).trace() - plain(other).trace()) <= allowance(m) + allowance(other));
+    }
+  }
+}
+
+TEST_CASE("A shift of the phase is a change of basis by the propagator", "[floquet][law]") {
+  // constant coefficient on [0, phase]: the propagator is known in closed form
+  MonodromyEngine engine;
+  const auto equation = hill_equation(2.0, PeriodicFunction::square(3.0, 2.0, 0.0));
+  const double s = std::sqrt(equation.coefficient(0.0)), kappa = equation.canonical_kappa(), phase = 1.0;
+  const Eigen::Matrix2d p{{std::cos(s * phase), kappa / s * std::sin(s * phase)},
+                          {-s / kappa * std::sin(s * phase), std::cos(s * phase)}};
+  const auto from_zero = plain(engine.compute(equation));
+  const auto from_phase = plain(engine.compute(shifted(equation, phase)));
+  CHECK((p * from_zero * p.inverse() - from_phase).cwiseAbs().maxCoeff() < 1e-13);
+}
+
+TEST_CASE("Half-period and whole-period routes agree", "[floquet][law]") {
+  // the same equation, once recognised as even and once with a disturbance of 1e-13 that breaks the symmetry
+  MonodromyEngine engine;
+  for (const double epsilon : {0.5, 3.0}) {
+    const auto even = mathieu_delta_epsilon(1.3, epsilon);
+    auto broken = even;
+    broken.coefficient = PeriodicFunction::fourier(1.3, {{1, epsilon, 0.0}, {2, 0.0, 1e-13}, {3, 1e-13, 0.0}});
+    const auto a = engine.compute(even, {.tolerance = kTolerance}), b = engine.compute(broken, {.tolerance = kTolerance});
+    CHECK(a.half.has_value());
+    CHECK_FALSE(b.half.has_value());
+    CHECK((plain(a) - plain(b)).cwiseAbs().maxCoeff() <= allowance(a) + allowance(b) + 1e-11);
+  }
+}
+
+TEST_CASE("Constant coefficients have the closed form, whatever the method", "[floquet][known]") {
+  MonodromyEngine engine;
+  const double delta = GENERATE(0.3, 1.7, 0.0, -0.2, 6.25);
+  const double s = std::sqrt(std::abs(delta)), T = 2.0 * std::numbers::pi;
+  const double expected = delta >= 0.0 ? 2.0 * std::cos(s * T) : 2.0 * std::cosh(s * T);
+  for (const auto method : {Method::automatic, Method::arkode, Method::cvode}) {
+    const auto m = engine.compute(mathieu_delta_epsilon(delta, 0.0), {.tolerance = kTolerance, .method = method});
+    CHECK(std::abs(plain(m).trace() - expected) <= allowance(m));
+    CHECK(m.method == (method == Method::automatic ? Method::exact : method));
+  }
+}
+
+TEST_CASE("The error falls with the tolerance and the cost rises", "[floquet][order]") {
+  MonodromyEngine engine;
+  double error = 1.0;
+  long cost = 0;
+  for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}) {
+    const auto m = engine.compute(mathieu_delta_epsilon(3.0, 2.0), {.tolerance = tolerance});
+    CHECK(m.outcome == Outcome::converged);
+    CHECK(m.error < error);
+    CHECK(m.cost.right_hand_sides > cost);
+    error = m.error;
+    cost = m.cost.right_hand_sides;
+  }
+}
+
+TEST_CASE("Cost: the error estimate is a separate run, half a period is half the work", "[floquet][cost]") {
+  MonodromyEngine engine;
+  const auto equation = mathieu_delta_epsilon(1.0, 0.5);
+  const auto with = engine.compute(equation), without = engine.compute(equation, {.estimate_error = false});
+  CHECK(plain(with) == plain(without));
+  CHECK(without.estimate_cost.right_hand_sides == 0);
+  CHECK(with.cost.right_hand_sides == without.cost.right_hand_sides);
+  CHECK(with.estimate_cost.right_hand_sides <= 2 * with.cost.right_hand_sides);
+  auto uneven = equation;
+  uneven.coefficient = PeriodicFunction::fourier(1.0, {{1, 0.5, 0.0}, {2, 0.0, 1e-9}, {3, 1e-9, 0.0}});
+  CHECK(engine.compute(uneven).cost.right_hand_sides >= 3 * with.cost.right_hand_sides / 2);
+}
+
+TEST_CASE("Results do not depend on what was computed before", "[floquet][law]") {
+  MonodromyEngine used, fresh;
+  for (const auto& equation : zoo()) (void)used.compute(equation, {.tolerance = 1e-5});
+  for (const auto& equation : zoo()) {
+    const auto a = used.compute(equation), b = fresh.compute(equation);
+    CHECK(a.matrix.value.mantissa == b.matrix.value.mantissa);
+    CHECK(a.error == b.error);
+  }
+}
+
+TEST_CASE("Misuse is refused, trouble is an outcome", "[floquet][error]") {
+  MonodromyEngine engine;
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1), {.tolerance = 1e-14}), InvalidInput);
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1), {.tolerance = std::nan("")}), InvalidInput);
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1), {.method = Method::exact}), InvalidInput);
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1), {.method = Method::fourier}), InvalidInput);
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(std::nan(""), 1)), InvalidInput);
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, INFINITY)), InvalidInput);
+  CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1, -0.1)), InvalidInput);
+  const std::atomic<bool> cancel = true;
+  const auto cancelled = engine.compute(mathieu_delta_epsilon(1, 1), {.cancel = &cancel});
+  CHECK(cancelled.outcome == Outcome::cancelled);
+  CHECK(std::isinf(cancelled.error));
+}

@@ -1,0 +1,146 @@
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/stability.hpp"
+
+using namespace strutt;
+
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+LinearPeriodicSystem oscillators(double k1, double k2, double coupling, double epsilon, double c = 0.0) {
+  LinearPeriodicSystem system;
+  system.mass = Eigen::Matrix2d::Identity();
+  if (c != 0.0) system.damping.mean = c * system.mass;
+  system.stiffness = {Eigen::MatrixXd{{k1, coupling}, {coupling, k2}},
+                      {{1, Eigen::MatrixXd{{0.0, epsilon}, {epsilon, 0.0}}, {}}}};
+  return system;
+}
+
+Stability at(const LinearModel& model, double tolerance = 1e-10) {
+  MonodromyEngine engine;
+  return analyse(engine, model, {.tolerance = tolerance});
+}
+
+}  // namespace
+
+TEST_CASE("Multipliers of a 2 x 2 system: product, sum, order", "[floquet][multipliers][law]") {
+  for (const double delta : {-2.0, 0.3, 1.0, 3.7}) {
+    for (const double c : {0.0, 0.1, 3.0}) {
+      const auto result = at(mathieu_delta_epsilon(delta, 1.2, c));
+      REQUIRE(result.multipliers.size() == 2);
+      const auto product = result.multipliers[0] * result.multipliers[1];
+      const auto sum = result.multipliers[0] + result.multipliers[1];
+      CHECK(std::abs(product - std::exp(-kTwoPi * c)) <= 1e-9 * std::exp(-kTwoPi * c));
+      CHECK(std::abs(sum - result.discriminant) <= 1e-9 * std::max(1.0, std::abs(result.discriminant)));
+      CHECK(std::abs(result.multipliers[0]) >= std::abs(result.multipliers[1]) * (1.0 - 1e-15));
+      CHECK(std::log(std::abs(result.multipliers[0])) == Approx(result.growth).margin(1e-12));
+      if (result.multipliers[0].imag() != 0.0) CHECK(result.multipliers[0].imag() > 0.0);
+    }
+  }
+}
+
+TEST_CASE("The small multiplier survives beside a huge one", "[floquet][multipliers][extreme][N2]") {
+  const auto result = at(mathieu_delta_epsilon(-36.0, 0.5));
+  const double product = (result.multipliers[0] * result.multipliers[1]).real();
+  CHECK(product == Approx(1.0).epsilon(1e-10));
+  CHECK(std::abs(result.multipliers[0]) > 1e15);
+}
+
+TEST_CASE("Uncoupled oscillators have the multipliers of each", "[floquet][multipliers]") {
+  const auto result = at(oscillators(1.3, 2.9, 0.0, 0.0));
+  CHECK(result.verdict == Verdict::stable);
+  CHECK(result.growth == 0.0);
+  CHECK(std::isnan(result.winding));
+  const double expected = std::min(1.0 - std::abs(std::cos(kTwoPi * std::sqrt(1.3))), 1.0 - std::abs(std::cos(kTwoPi * std::sqrt(2.9))));
+  CHECK(std::abs(result.margin - expected) <= result.margin_error);
+  CHECK(result.margin_error < 1e-8);
+  for (const auto& multiplier : result.multipliers) CHECK(std::abs(multiplier) == Approx(1.0).epsilon(1e-9));
+}
+
+TEST_CASE("Combination resonance: unstable at the sum of the frequencies only", "[floquet][multipliers]") {
+  // off-diagonal excitation at frequency 1 = w1 + w2, first order growth epsilon/(4 sqrt(w1 w2)) * T... for w1 = 0.3, w2 = 0.7
+  const auto resonant = at(oscillators(0.09, 0.49, 0.0, 0.02));
+  CHECK(resonant.verdict == Verdict::unstable);
+  CHECK(resonant.growth == Approx(0.02 / (4.0 * std::sqrt(0.21)) * kTwoPi).epsilon(0.02));
+  CHECK(resonant.margin == Approx(-resonant.growth).epsilon(1e-12));
+  CHECK(at(oscillators(0.09, 0.60, 0.0, 0.02)).verdict == Verdict::stable);
+}
+
+TEST_CASE("Proportional damping shifts growth by cT/2 and closes the resonance", "[floquet][multipliers]") {
+  const double growth = at(oscillators(0.09, 0.49, 0.0, 0.02)).growth;
+  const double c = 0.01;
+  auto damped = oscillators(0.09 + c * c / 4.0, 0.49 + c * c / 4.0, 0.0, 0.02, c);
+  CHECK(at(damped).growth == Approx(growth - c * kTwoPi / 2.0).epsilon(1e-8));
+  CHECK(at(oscillators(0.09, 0.49, 0.0, 0.02, 0.05)).verdict == Verdict::stable);
+  CHECK(at(oscillators(0.09, 0.49, 0.0, 0.02, 0.05)).margin > 0.0);
+}
+
+TEST_CASE("General damping: margin is minus the growth", "[floquet][multipliers]") {
+  auto system = oscillators(1.3, 2.9, 0.1, 0.0);
+  system.damping.mean = Eigen::MatrixXd{{0.2, 0.0}, {0.0, 0.05}};
+  const auto result = at(system);
+  CHECK(result.verdict == Verdict::stable);
+  CHECK(result.margin == -result.growth);
+  double trace = 0.0;  // det M = exp(-T trace C)
+  for (const auto& multiplier : result.multipliers) trace += std::log(std::abs(multiplier));
+  CHECK(trace == Approx(-kTwoPi * 0.25).epsilon(1e-9));
+  system.damping.mean = Eigen::MatrixXd{{0.2, 0.0}, {0.0, -0.05}};
+  CHECK(at(system).verdict == Verdict::unstable);
+}
+
+TEST_CASE("A gyroscopic system with spectral radius 1 is unresolved", "[floquet][multipliers]") {
+  auto system = oscillators(1.3, 2.9, 0.0, 0.0);
+  system.damping.mean = Eigen::MatrixXd{{0.0, 0.4}, {-0.4, 0.0}};
+  const auto result = at(system);
+  CHECK(result.verdict == Verdict::unresolved);
+  CHECK(std::abs(result.growth) < 1e-8);
+}
+
+TEST_CASE("Equal oscillators: colliding roots are unresolved unless another root decides", "[floquet][multipliers]") {
+  CHECK(at(oscillators(1.3, 1.3, 0.0, 0.0)).verdict == Verdict::unresolved);
+  CHECK(at(oscillators(-1.3, -1.3, 0.0, 0.0)).verdict == Verdict::unstable);
+}
+
+TEST_CASE("One degree of freedom as a system is the Hill equation it is", "[floquet][multipliers][law]") {
+  LinearPeriodicSystem system;
+  system.mass = Eigen::MatrixXd{{2.0}};
+  system.damping.mean = Eigen::MatrixXd{{0.2}};
+  system.stiffness = {Eigen::MatrixXd{{2.6}}, {{1, Eigen::MatrixXd{{1.0}}, {}}}};
+  const auto a = at(system), b = at(mathieu_delta_epsilon(1.3, 0.5, 0.1));
+  CHECK(a.margin == Approx(b.margin).epsilon(1e-9));
+  CHECK(a.growth == Approx(b.growth).epsilon(1e-9));
+  CHECK((a.matrix - b.matrix).cwiseAbs().maxCoeff() < 1e-9);
+  // negative damping is no Hill scene: the general route answers
+  system.damping.mean = Eigen::MatrixXd{{-0.2}};
+  CHECK(at(system).verdict == Verdict::unstable);
+}
+
+TEST_CASE("Three degrees of freedom: block diagonal equals its parts", "[floquet][multipliers][law]") {
+  LinearPeriodicSystem system;
+  system.mass = Eigen::Matrix3d::Identity();
+  system.stiffness = {Eigen::Vector3d(0.7, 1.9, 3.1).asDiagonal(),
+                      {{1, Eigen::MatrixXd(Eigen::Vector3d(0.3, 0.1, 0.2).asDiagonal()), {}}}};
+  const auto result = at(system);
+  double least = 1.0;
+  for (int j = 0; j < 3; ++j) {
+    const auto part = at(mathieu_delta_epsilon(system.stiffness.mean(j, j), system.stiffness.harmonics[0].cosine(j, j)));
+    least = std::min(least, part.margin);
+  }
+  CHECK(std::abs(result.margin - least) <= result.margin_error + 1e-9);
+  CHECK(result.matrix.rows() == 6);
+}
+
+TEST_CASE("Scale: SI and canonical systems give the same verdict and growth", "[floquet][law]") {
+  const auto canonical = at(oscillators(0.9, 2.1, 0.2, 0.3));
+  auto slow = oscillators(0.9e-6, 2.1e-6, 0.2e-6, 0.3e-6);  // time in milliseconds
+  slow.period = kTwoPi * 1e3;
+  slow.mass *= 1.0;
+  const auto si = at(slow);
+  CHECK(si.growth == Approx(canonical.growth).margin(1e-10));
+  CHECK(si.margin == Approx(canonical.margin).margin(1e-9));
+}

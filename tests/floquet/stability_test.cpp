@@ -1,0 +1,134 @@
+#include <Eigen/LU>
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/math/special_functions/jacobi_elliptic.hpp>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "strutt/floquet/stability.hpp"
+
+using namespace strutt;
+
+namespace {
+
+Stability at(const LinearModel& model, double tolerance = 1e-11) {
+  MonodromyEngine engine;
+  return analyse(engine, model, {.tolerance = tolerance});
+}
+
+/// Lame's equation x'' + (h - n(n+1) k^2 sn^2(t, k)) x = 0 over the period 2K of sn^2.
+HillEquation lame(int n, double k, double h) {
+  const double period = 2.0 * boost::math::ellint_1(k);
+  std::vector<double> samples;
+  for (int j = 0; j < 64; ++j) {
+    const double sn = boost::math::jacobi_sn(k, period * j / 64.0);
+    samples.push_back(h - n * (n + 1) * k * k * sn * sn);
+  }
+  return hill_equation(period, PeriodicFunction::samples(samples));
+}
+
+/// The 2n + 1 edges of the n open gaps, ascending (Arscott, Periodic Differential Equations, 1964, ch. 9).
+std::vector<double> lame_edges(int n, double k) {
+  const double m = k * k;
+  std::vector<double> edges;
+  const auto pair = [&](double centre, double radicand) {
+    edges.push_back(centre - 2.0 * std::sqrt(radicand));
+    edges.push_back(centre + 2.0 * std::sqrt(radicand));
+  };
+  if (n == 1) edges = {m, 1.0, 1.0 + m};
+  if (n == 2) {
+    edges = {1.0 + m, 1.0 + 4.0 * m, 4.0 + m};
+    pair(2.0 * (1.0 + m), 1.0 - m + m * m);
+  }
+  if (n == 3) {
+    edges = {4.0 * (1.0 + m)};
+    pair(5.0 * (1.0 + m), 4.0 - 7.0 * m + 4.0 * m * m);
+    pair(5.0 + 2.0 * m, 4.0 - m + m * m);
+    pair(2.0 + 5.0 * m, 1.0 - m + 4.0 * m * m);
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[floquet][known][N8]") {
+  const int n = GENERATE(1, 2, 3);
+  const double k = GENERATE(0.5, 0.8);
+  const auto edges = lame_edges(n, k);
+  REQUIRE(edges.size() == static_cast<std::size_t>(2 * n + 1));
+  for (std::size_t j = 0; j < edges.size(); ++j) {
+    // unstable below the first edge, then bands and gaps alternate
+    const Verdict below = j % 2 == 0 ? Verdict::unstable : Verdict::stable;
+    const Verdict above = j % 2 == 0 ? Verdict::stable : Verdict::unstable;
+    CHECK(at(lame(n, k, edges[j] - 1e-7)).verdict == below);
+    CHECK(at(lame(n, k, edges[j] + 1e-7)).verdict == above);
+    CHECK(std::abs(at(lame(n, k, edges[j])).margin) < 1e-10);
+  }
+  // every later gap is closed: nowhere unstable, although the margin touches zero
+  double least = 1.0;
+  for (double h = edges.back() + 1e-3; h < edges.back() + 30.0; h += 0.037) {
+    const auto result = at(lame(n, k, h), 1e-9);
+    CHECK(result.verdict != Verdict::unstable);
+    least = std::min(least, result.margin);
+  }
+  CHECK(least < 0.05);
+}
+
+TEST_CASE("Meissner's equation agrees with its closed form by both routes", "[floquet][known][N19]") {
+  MonodromyEngine engine;
+  for (const double amplitude : {0.3, 1.5, 4.0}) {
+    const auto equation = hill_equation(2.0 * std::numbers::pi, PeriodicFunction::square(1.1, amplitude, 0.0));
+    // D = 2 c1 c2 - (s1/s2 + s2/s1) z1 z2, half a period of each piece
+    const std::complex<double> a = std::sqrt(std::complex<double>(1.1 + amplitude));
+    const std::complex<double> b = std::sqrt(std::complex<double>(1.1 - amplitude));
+    const double pi = std::numbers::pi;
+    const double expected =
+        (2.0 * std::cos(a * pi) * std::cos(b * pi) - (a / b + b / a) * std::sin(a * pi) * std::sin(b * pi)).real();
+    for (const auto method : {Method::exact, Method::arkode, Method::cvode}) {
+      const auto result = analyse(engine, equation, {.tolerance = 1e-9, .method = method});
+      const double size = std::max(1.0, result.matrix.cwiseAbs().maxCoeff());
+      CHECK(std::abs(result.discriminant - expected) <= result.error * size + 1e-13 * size);
+      CHECK(result.error <= (method == Method::exact ? 1e-12 : 1e-9));
+    }
+  }
+}
+
+TEST_CASE("Entries beyond 1e300 are given with a scale", "[floquet][extreme][N1]") {
+  const auto result = at(mathieu_delta_epsilon(-1.4e4, 0.0));  // exp(743)
+  CHECK(result.log_scale > 0.0);
+  CHECK(result.matrix.allFinite());
+  CHECK(result.matrix.cwiseAbs().maxCoeff() > 0.1);
+  const double growth = 2.0 * std::numbers::pi * std::sqrt(1.4e4);
+  CHECK(result.growth == Approx(growth).epsilon(1e-14));
+  CHECK(std::log(result.discriminant) + result.log_scale == Approx(growth).epsilon(1e-14));
+  CHECK(std::log(result.multipliers[0].real()) + result.log_scale == Approx(growth).epsilon(1e-14));
+  CHECK(at(mathieu_delta_epsilon(-1.0, 0.0)).log_scale == 0.0);
+}
+
+TEST_CASE("SI and canonical scenes of one rod give the same verdict and growth", "[floquet][law]") {
+  const double omega = GENERATE(3.0, 7.5, 8.1, 40.0);
+  for (const auto about : {Equilibrium::hanging, Equilibrium::inverted}) {
+    const auto rod = PhysicalPendulum::uniform_rod(2.5, 1.0, 9.81, 0.3);
+    const auto support = sinusoidal_support(0.15, omega);
+    const auto si = at(linearise(rod, about, &support).equation);
+    const double sign = about == Equilibrium::hanging ? 1.0 : -1.0;
+    const double delta = sign * 1.5 * 9.81 / (omega * omega), epsilon = -sign * 1.5 * 0.15;
+    auto canonical = mathieu_delta_epsilon(delta, 0.0, 0.3 / omega);
+    canonical.coefficient = PeriodicFunction::fourier(delta, {{1, 0.0, epsilon}});
+    const auto reference = at(canonical);
+    CHECK(si.verdict == reference.verdict);
+    CHECK(si.growth == Approx(reference.growth).epsilon(1e-9));
+    CHECK(si.growth_per_time == Approx(si.growth * omega / (2.0 * std::numbers::pi)).epsilon(1e-14));
+    CHECK(si.winding == Approx(reference.winding).epsilon(1e-9));
+    CHECK(si.matrix(0, 1) * omega == Approx(reference.matrix(0, 1)).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("Parts that were not asked for are not computed", "[floquet][cost]") {
+  MonodromyEngine engine;
+  const auto result = analyse(engine, mathieu_delta_epsilon(1.0, 0.5), {}, {.winding = false, .matrix = false});
+  CHECK(std::isnan(result.winding));
+  CHECK(result.matrix.size() == 0);
+  CHECK(result.verdict == Verdict::unstable);
+}

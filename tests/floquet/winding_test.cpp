@@ -1,0 +1,61 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "strutt/floquet/stability.hpp"
+
+using namespace strutt;
+
+namespace {
+
+Stability at(const HillEquation& equation, double tolerance = 1e-9) {
+  MonodromyEngine engine;
+  return analyse(engine, equation, {.tolerance = tolerance});
+}
+
+}  // namespace
+
+TEST_CASE("The winding number of a constant coefficient is sqrt(delta)", "[floquet][winding]") {
+  for (const double delta : {1e-6, 0.1, 0.3, 1.1, 2.0, 7.3, 123.4, 1e4 + 0.3, 1e6 + 0.7}) {
+    CHECK(at(mathieu_delta_epsilon(delta, 0.0)).winding == Approx(std::sqrt(delta)).epsilon(1e-12));
+  }
+  for (const double delta : {-0.1, -30.0}) CHECK(at(mathieu_delta_epsilon(delta, 0.0)).winding == 0.0);
+}
+
+TEST_CASE("The winding number grows with delta and rests at n/2 inside tongue n", "[floquet][winding]") {
+  for (const double epsilon : {0.3, 2.0, 6.0, -4.0}) {
+    double previous = 0.0;
+    for (double delta = -3.0; delta < 12.0; delta += 0.0613) {
+      const auto result = at(mathieu_delta_epsilon(delta, epsilon), 1e-7);
+      CHECK(result.winding >= previous);
+      previous = result.winding;
+      const double halves = 2.0 * result.winding;
+      if (result.verdict == Verdict::unstable) CHECK(halves == std::round(halves));
+      if (result.verdict == Verdict::stable) CHECK(halves != std::round(halves));
+      // its parity is the sign of the discriminant
+      if (result.verdict == Verdict::unstable) CHECK((std::fmod(halves, 2.0) == 0.0) == (result.discriminant > 0.0));
+    }
+    CHECK(previous > 3.0);
+  }
+}
+
+TEST_CASE("Winding does not depend on damping's scaling, the phase or the route", "[floquet][winding][law]") {
+  for (const double delta : {0.4, 1.3, 2.8, 9.7}) {
+    const double reference = at(mathieu_delta_epsilon(delta, 1.5)).winding;
+    auto sine = mathieu_delta_epsilon(delta, 1.5);
+    sine.coefficient = PeriodicFunction::fourier(delta, {{1, 0.0, 1.5}});
+    CHECK(at(sine).winding == Approx(reference).epsilon(1e-9));
+    auto shifted = sine;
+    shifted.coefficient = sine.coefficient.shifted(1.234);
+    CHECK(at(shifted).winding == Approx(reference).epsilon(1e-9));
+    // with damping c the equation of y has delta - c^2/4
+    CHECK(at(mathieu_delta_epsilon(delta + 0.01, 1.5, 0.2)).winding == Approx(reference).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Alternating growth and oscillation is counted", "[floquet][winding][extreme][N15]") {
+  // epsilon = 1e3: for a third of the period the solution turns at up to 31 radians a unit of time
+  const auto result = at(mathieu_delta_epsilon(500.0, 1000.0), 1e-6);
+  CHECK(2.0 * result.winding == std::round(2.0 * result.winding));
+  CHECK(result.winding > 10.0);
+  CHECK(result.winding < std::sqrt(1500.0));
+}
