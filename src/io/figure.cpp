@@ -65,8 +65,9 @@ void ChartFigure::commit() {
 
   LabelPlacer placer(plot_size(data), edges);
   std::string growth;
+  const auto growth_squared = data.signed_growth_squared();
   for (const double level : content.scale.levels) {
-    auto lines = contour_lines(data.growth(), data.columns(), level);
+    auto lines = contour_lines(growth_squared, data.columns(), level * level);
     placer.place(lines, to_text(level));
     growth += line_data(lines, data);
   }

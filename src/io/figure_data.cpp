@@ -81,6 +81,15 @@ void FigureData::keep(std::size_t layer, const std::vector<double>& row, std::si
   }
 }
 
+std::vector<float> FigureData::signed_growth_squared() const {
+  std::vector<float> result(growth().size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const float growing = growth()[i];
+    result[i] = growing <= 0.0F ? -std::max(margin()[i], 0.0F) : growing * growing;
+  }
+  return result;
+}
+
 std::string hexadecimal(Colour c) { return fmt::format("#{:02X}{:02X}{:02X}", c[0], c[1], c[2]); }
 
 Colour GrowthScale::colour(double growth) const {

@@ -24,7 +24,11 @@ class FigureData {
   std::size_t rows() const { return rows_.size(); }
   const std::vector<float>& verdict() const { return layers_[0]; }
   const std::vector<float>& growth() const { return layers_[1]; }
-  const std::vector<float>& margin() const { return layers_[2]; }  ///< as a function of it that crosses 0 evenly, same sign
+  /// As a function of it that crosses 0 evenly, with the same sign.
+  const std::vector<float>& margin() const { return layers_[2]; }
+  /// growth^2 where there is growth, -margin() elsewhere: close to linear in the parameters up to the edge, so that
+  /// lines of equal growth do not follow the cells there.
+  std::vector<float> signed_growth_squared() const;
 
  private:
   void keep(std::size_t layer, const std::vector<double>& row, std::size_t begin);

@@ -76,7 +76,7 @@ bool LabelPlacer::place_on(std::vector<ContourLine>& lines, std::size_t index, c
     if (degrees > 90.0) degrees -= 180.0;
     if (degrees <= -90.0) degrees += 180.0;
     labels_.push_back({centre.column / size_.width, centre.row / size_.height, degrees, text});
-    lines[index].resize(static_cast<std::size_t>(first) + 1);
+    lines[index].assign(line.begin(), line.begin() + first + 1);
     lines.emplace_back(line.begin() + last, line.end());
     return true;
   }
