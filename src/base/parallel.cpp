@@ -1,6 +1,7 @@
 #include "strutt/base/parallel.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -32,6 +33,10 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
   if (threads == 1) {
     run(0, count, 0);
   } else {
+    // More threads than cores are the caller's choice: without this TBB warns on stderr and refuses them.
+    using Control = tbb::global_control;
+    const auto allowed = Control::active_value(Control::max_allowed_parallelism);
+    const Control control(Control::max_allowed_parallelism, std::max(allowed, static_cast<std::size_t>(threads)));
     tbb::task_arena arena(threads);
     arena.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {

@@ -109,7 +109,7 @@ Margin hill_margin(const DiscriminantGap& d, double half_damping) {
 
 double hill_growth(const DiscriminantGap& d, double half_damping) {
   const double h = half_damping;
-  if (d.gap >= 0.0) return -h;
+  if (d.gap >= 0.0) return 0.0 - h;  // not -0
   if (d.log_abs > kLogLarge || h > kLogLarge) {
     return (d.log_abs > 20.0 ? d.log_abs : std::acosh(0.5 * std::exp(d.log_abs))) - h;
   }
