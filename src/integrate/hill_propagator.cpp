@@ -12,26 +12,47 @@ namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-// Below this product of step and frequency the asymptotic error formula holds.
-constexpr double kLargestStep = 0.6;
+// Beyond these products of step and frequency, of the solution and of the coefficient, the error of half the steps says
+// nothing of that of all.
+constexpr double kLargestStep = 0.7;
+constexpr double kLargestWaveStep = 1.2;
+constexpr double kShareOfOrder = 0.7;
+constexpr int kMidpoints = 32;  // of the integral in the error formula, per harmonic
+constexpr double kHalvingSafety = 8.0;
 
 /// The steps are rounded up to a few values per octave, so that many cells share a table.
 int rounded_up(double steps) {
-  for (int octave = 4;; octave *= 2) {
-    for (const int numerator : {8, 9, 10, 11, 12, 13, 14, 15}) {
-      const int candidate = octave * numerator / 8;
-      if (candidate >= steps) return candidate;
+  for (int octave = 16;; octave *= 2) {
+    for (const int eighths : {4, 5, 6, 7, 8}) {
+      const int candidate = octave * eighths / 8;
+      if (candidate % 2 == 0 && candidate >= steps) return candidate;
     }
   }
 }
 
-HillStepPlan plan_with(const detail::Splitting& scheme, double rho, double length, double tolerance) {
-  const double p = scheme.order;
-  const double scale = scheme.error_constant * std::pow(rho, p + 1.0) * length;
-  const double step = std::min(std::pow(tolerance / scale, 1.0 / p), kLargestStep / rho);
-  if (!(length / step <= kMostHillSteps)) return {scheme.order, 0, 0.0};
-  const int steps = rounded_up(length / step);
-  return {scheme.order, steps, scale * std::pow(length / steps, p)};
+/// Integral of |W| (sqrt|W| + k)^(p-1), by the midpoint rule.
+double error_integral(const PeriodicFunction& w, double from, double to, int order) {
+  const double k = kShareOfOrder * w.highest_order();
+  const int points = w.is_constant() ? 1 : kMidpoints * w.highest_order();
+  double sum = 0.0;
+  for (int j = 0; j < points; ++j) {
+    const double value = std::abs(w(std::lerp(from, to, (j + 0.5) / points)));
+    const double base = std::sqrt(value) + k;
+    double term = value;
+    for (int i = 1; i < order; ++i) term *= base;
+    sum += term;
+  }
+  return sum * (to - from) / points;
+}
+
+HillStepPlan plan_with(const detail::Splitting& scheme, const PeriodicFunction& w, double from, double to,
+                       double tolerance) {
+  const double scale = scheme.error_constant * error_integral(w, from, to, scheme.order);
+  const double largest = std::min(kLargestStep / std::sqrt(std::max(w.bound(), 1e-300)),
+                                  kLargestWaveStep / std::max(w.highest_order(), 1));
+  const double step = std::min(std::pow(tolerance / scale, 1.0 / scheme.order), largest);
+  const double steps = (to - from) / step;
+  return {scheme.order, steps <= kMostHillSteps ? rounded_up(steps) : 0};
 }
 
 std::size_t stages_of(const HillStepPlan& plan) {
@@ -40,13 +61,13 @@ std::size_t stages_of(const HillStepPlan& plan) {
 
 }  // namespace
 
-HillStepPlan plan_hill_steps(const PeriodicFunction& w, double length, double tolerance) {
-  const double order = w.highest_order();
-  const double rho = std::sqrt(std::max(w.bound() + order * order, 1e-300));
-  const auto fourth = plan_with(detail::splitting(4), rho, length, tolerance);
-  const auto sixth = plan_with(detail::splitting(6), rho, length, tolerance);
+HillStepPlan plan_hill_steps(const PeriodicFunction& w, double from, double to, double tolerance) {
+  const auto fourth = plan_with(detail::splitting(4), w, from, to, tolerance);
+  const auto sixth = plan_with(detail::splitting(6), w, from, to, tolerance);
   return fourth.steps > 0 && stages_of(fourth) < stages_of(sixth) ? fourth : sixth;
 }
+
+double halving_share(int order) { return kHalvingSafety / (std::exp2(order) - 1.0); }
 
 HillPropagator::HillPropagator(const HillStepPlan& plan, std::span<const PeriodicFunction> basis, double from, double to)
     : functions_(static_cast<int>(basis.size())) {

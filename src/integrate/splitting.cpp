@@ -30,7 +30,7 @@ constexpr std::array kDrifts6{kA11[0], kA11[1], kA11[2], kA11[3], kA11[4], 2.0 *
 constexpr std::array kKicks6{kB11[0], kB11[1], kB11[2], kB11[3], kB11[4], half_rest(kB11),
                              half_rest(kB11), kB11[4], kB11[3], kB11[2], kB11[1], kB11[0]};
 
-constexpr std::array<Splitting, 2> kSplittings{{{4, kKicks4, kDrifts4, 4e-4}, {6, kKicks6, kDrifts6, 2e-6}}};
+constexpr std::array<Splitting, 2> kSplittings{{{4, kKicks4, kDrifts4, 3e-5}, {6, kKicks6, kDrifts6, 8e-8}}};
 
 }  // namespace
 

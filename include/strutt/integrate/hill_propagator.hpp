@@ -8,19 +8,24 @@
 
 namespace strutt {
 
-/// A fixed-step integration of Y'' + W Y = 0 over one smooth piece of the phase, and the bound of what it leaves out.
+/// How a smooth piece of the phase is integrated: with a splitting of this order, in so many equal steps.
 struct HillStepPlan {
-  int order = 6;     ///< of the splitting: 4 or 6
-  int steps = 0;     ///< 0: no plan reaches the tolerance within kMostHillSteps
-  double truncation = 0.0;  ///< bound of |propagator - true one|, relative to its largest entry, state (Y, Y'/kappa)
+  int order = 6;  ///< 4 or 6
+  int steps = 0;  ///< even; 0: more than kMostHillSteps would be needed
 };
 inline constexpr int kMostHillSteps = 100'000;
 
-/// The cheapest plan whose truncation is at most `tolerance`, by
-///   truncation <= c_p h^p rho^(p+1) length,   rho^2 = bound of |W| + (highest order of its harmonics)^2,
-/// with h the step and c_p found by trial over delta in [-1e4, 1e4], epsilon to 1e3 and harmonics to order 20 (the tests
-/// hold it). Depends on the equation only, never on the batch it is computed with.
-HillStepPlan plan_hill_steps(const PeriodicFunction& w, double length, double tolerance);
+/// The cheaper of the two orders p for an expected error of `tolerance` in the propagator of Y'' + W Y = 0 over
+/// [from, to], relative to its largest entry in the state (Y, Y'/kappa):
+///   error ~ c_p h^p integral |W| (sqrt|W| + k)^(p-1) dtheta,   k = 0.7 times the highest order of the harmonics of W.
+/// The formula was found by trial (delta to 1e4, epsilon to 1e3, harmonics to order 20) and is no bound: what was
+/// reached is known from a second run with half the steps. Depends on the equation only, never on what it is
+/// computed together with.
+HillStepPlan plan_hill_steps(const PeriodicFunction& w, double from, double to, double tolerance);
+
+/// The error of n steps seen in a run of n/2 is their difference divided by 2^p - 1; this bound of it, as a share of
+/// the difference, leaves room for steps at which the next order still counts.
+double halving_share(int order);
 
 /// Hill equations that share their functions of the phase:
 ///   Y'' + W_l Y = 0,   W_l(theta) = mean[l] + sum_j weights[j][l] basis[j](theta),   l = 0 ... lanes - 1.

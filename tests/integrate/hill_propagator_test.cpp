@@ -1,0 +1,226 @@
+#include "strutt/integrate/hill_propagator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+
+#include "strutt/base/error.hpp"
+
+using namespace strutt;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct Point {
+  double delta, epsilon;
+};
+
+/// u1, u1', u2, u2' at pi of Y'' + (delta + epsilon cos(k theta)) Y = 0 by Taylor series of degree 22 in long double.
+std::array<long double, 4> taylor(Point p, int k, int steps) {
+  constexpr int kDegree = 22;
+  const long double h = std::numbers::pi_v<long double> / steps;
+  std::array<long double, 4> y{1, 0, 0, 1};
+  for (int step = 0; step < steps; ++step) {
+    const long double c = std::cos(k * h * step), s = std::sin(k * h * step);
+    const std::array<long double, 4> cycle{c, -s, -c, s};
+    std::array<long double, kDegree> w{};
+    long double factor = p.epsilon;
+    for (int j = 0; j < kDegree; ++j) {
+      w[static_cast<std::size_t>(j)] = factor * cycle[static_cast<std::size_t>(j % 4)];
+      factor *= static_cast<long double>(k) / (j + 1);
+    }
+    w[0] += p.delta;
+    for (std::size_t column : {0, 2}) {
+      std::array<long double, kDegree + 1> a{y[column], y[column + 1]};
+      for (std::size_t j = 0; j + 2 <= kDegree; ++j) {
+        long double sum = 0;
+        for (std::size_t i = 0; i <= j; ++i) sum += w[i] * a[j - i];
+        a[j + 2] = -sum / static_cast<long double>((j + 1) * (j + 2));
+      }
+      long double value = 0, slope = 0;
+      for (std::size_t j = kDegree + 1; j-- > 0;) value = value * h + a[j];
+      for (std::size_t j = kDegree + 1; j-- > 1;) slope = slope * h + static_cast<long double>(j) * a[j];
+      y[column] = value;
+      y[column + 1] = slope;
+    }
+  }
+  return y;
+}
+
+PeriodicFunction harmonic(double mean, double amplitude, int order) {
+  return PeriodicFunction::fourier(mean, {{order, amplitude, 0.0}});
+}
+
+HillPropagators run(const HillStepPlan& plan, int order, const std::vector<Point>& points) {
+  const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, order)};
+  std::vector<double> mean, weight;
+  for (const auto& p : points) {
+    mean.push_back(p.delta);
+    weight.push_back(p.epsilon);
+  }
+  HillPropagators result;
+  HillPropagator(plan, basis, 0.0, kPi).propagate({mean, {weight}}, result);
+  return result;
+}
+
+/// Largest error of the entries in the state (Y, Y'/kappa), relative to the largest entry.
+double error_of(const HillPropagators& r, std::size_t lane, const std::array<long double, 4>& truth, double kappa) {
+  const std::array<long double, 4> scale{1.0L, 1.0L / kappa, kappa, 1.0L};
+  const std::array<double, 4> value{r.u1[lane], r.du1[lane], r.u2[lane], r.du2[lane]};
+  long double largest = 0, error = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    largest = std::max(largest, std::abs(truth[i] * scale[i]));
+    error = std::max(error, std::abs((std::ldexp(static_cast<long double>(value[i]), static_cast<int>(r.exponent[lane])) - truth[i]) * scale[i]));
+  }
+  return static_cast<double>(error / largest);
+}
+
+double kappa_of(double delta) { return std::max(1.0, std::sqrt(std::abs(delta))); }
+
+std::vector<Point> scattered(std::size_t count, Point low, Point high, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> delta(low.delta, high.delta), epsilon(low.epsilon, high.epsilon);
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i) points.push_back({delta(random), epsilon(random)});
+  return points;
+}
+
+/// Same bits? NaN never is.
+bool same(const HillPropagators& a, std::size_t i, const HillPropagators& b, std::size_t j) {
+  return a.u1[i] == b.u1[j] && a.du1[i] == b.du1[j] && a.u2[i] == b.u2[j] && a.du2[i] == b.du2[j] &&
+         a.exponent[i] == b.exponent[j];
+}
+
+}  // namespace
+
+TEST_CASE("halving the step divides the error by 2^order", "[integrate][propagator][order][simd]") {
+  const auto points = scattered(40, {-1.0, 0.0}, {5.0, 6.0}, 1);
+  for (const int order : {4, 6}) {
+    double coarse = 0.0, fine = 0.0;
+    const auto a = run({order, 24}, 1, points), b = run({order, 48}, 1, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto truth = taylor(points[i], 1, 60);
+      coarse += error_of(a, i, truth, kappa_of(points[i].delta));
+      fine += error_of(b, i, truth, kappa_of(points[i].delta));
+    }
+    CHECK(std::log2(coarse / fine) == Approx(order).margin(0.25));
+  }
+}
+
+TEST_CASE("the steps of a plan reach its tolerance, and half the steps tell by how much", "[integrate][propagator][simd]") {
+  struct Region {
+    Point low, high;
+    int order;
+  };
+  const auto region = GENERATE(values<Region>({{{-1, 0}, {5, 6}, 1},
+                                               {{-0.1, 0}, {0.1, 0.3}, 1},
+                                               {{-50, 0}, {200, 200}, 1},
+                                               {{0, 0}, {1e4, 10}, 1},
+                                               {{0, 0}, {5, 5}, 5},
+                                               {{0, 0}, {0.01, 1}, 20},
+                                               {{1, 0}, {1, 1000}, 1}}));
+  const auto tolerance = GENERATE(1e-3, 1e-6, 1e-9, 1e-12);
+  const auto points = scattered(30, region.low, region.high, 7);
+  int reached = 0;
+  CAPTURE(region.high.delta, region.high.epsilon, region.order, tolerance);
+  for (const auto& p : points) {
+    const auto plan = plan_hill_steps(harmonic(p.delta, p.epsilon, region.order), 0.0, kPi, tolerance);
+    REQUIRE(plan.steps >= 4);
+    const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, region.order)};
+    const auto full = run(plan, region.order, {p}), half = run({plan.order, plan.steps / 2}, region.order, {p});
+    const double kappa = kappa_of(p.delta);
+    const auto truth = taylor(p, region.order, 60 + static_cast<int>(4.0 * std::sqrt(std::abs(p.delta) + p.epsilon)) + 4 * region.order);
+    const double error = error_of(full, 0, truth, kappa);
+    std::array<long double, 4> other{half.u1[0], half.du1[0], half.u2[0], half.du2[0]};
+    for (auto& x : other) x = std::ldexp(x, static_cast<int>(half.exponent[0]));
+    const double rounding = HillPropagator(plan, basis, 0.0, kPi).rounding();
+    // the rounding of the coefficients acts on the whole phase
+    const double phase = 0x1p-52 * kPi * std::sqrt(std::abs(p.delta) + p.epsilon);
+    CHECK(error <= halving_share(plan.order) * error_of(full, 0, other, kappa) * 1.01 + rounding + phase);
+    reached += error <= 4.0 * tolerance + rounding;
+  }
+  CHECK(reached >= 24);
+}
+
+TEST_CASE("the determinant of a propagator is 1 to rounding", "[integrate][propagator][law][simd]") {
+  const auto points = scattered(200, {-1.0, 0.0}, {30.0, 6.0}, 3);
+  for (const int steps : {4, 16, 200}) {  // also far from converged
+    const auto r = run({6, steps}, 1, points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double scale = std::exp2(2.0 * static_cast<double>(r.exponent[i]));
+      const double size = (std::abs(r.u1[i] * r.du2[i]) + std::abs(r.u2[i] * r.du1[i])) * scale;
+      CHECK(std::abs((r.u1[i] * r.du2[i] - r.u2[i] * r.du1[i]) * scale - 1.0) <= 1e-13 * std::max(1.0, size));
+    }
+  }
+}
+
+TEST_CASE("a lane has the same bits whatever stands beside it", "[integrate][propagator][simd][N46]") {
+  auto points = scattered(101, {-5.0, 0.0}, {50.0, 40.0}, 5);
+  points[7] = {std::nan(""), 1.0};
+  points[8] = {1e308, 1.0};
+  const HillStepPlan plan{6, 24};
+  const auto together = run(plan, 1, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i == 7 || i == 8) continue;
+    CHECK(same(together, i, run(plan, 1, {points[i]}), 0));
+  }
+  std::vector<Point> reversed(points.rbegin(), points.rend());
+  const auto backwards = run(plan, 1, reversed);
+  for (std::size_t i = 9; i < points.size(); ++i) CHECK(same(together, i, backwards, points.size() - 1 - i));
+}
+
+TEST_CASE("one basis function by the general kernel is the special one", "[integrate][propagator][simd]") {
+  const auto points = scattered(37, {-1.0, 0.0}, {5.0, 6.0}, 9);
+  std::vector<double> mean, weight, none(points.size(), 0.0);
+  for (const auto& p : points) {
+    mean.push_back(p.delta);
+    weight.push_back(p.epsilon);
+  }
+  const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, 1), harmonic(0.0, 1.0, 3)};
+  HillPropagators general;
+  HillPropagator({6, 24}, basis, 0.0, kPi).propagate({mean, {weight, none}}, general);
+  const auto special = run({6, 24}, 1, points);
+  for (std::size_t i = 0; i < points.size(); ++i) CHECK(same(general, i, special, i));
+}
+
+TEST_CASE("several harmonics, and a start that is not 0", "[integrate][propagator][simd]") {
+  // W = 2 + 0.7 cos + 0.2 sin - 0.3 cos 2: the propagator over [a, c] is that over [b, c] times that over [a, b]
+  const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, 1), PeriodicFunction::fourier(0.0, {{1, 0.0, 1.0}}),
+                                            harmonic(0.0, 1.0, 2)};
+  const std::vector<double> mean{2.0}, c1{0.7}, s1{0.2}, c2{-0.3};
+  const auto over = [&](double from, double to) {
+    HillPropagators r;
+    HillPropagator({6, 200}, basis, from, to).propagate({mean, {c1, s1, c2}}, r);
+    const double scale = std::exp2(static_cast<double>(r.exponent[0]));
+    return Eigen::Matrix2d{{r.u1[0] * scale, r.u2[0] * scale}, {r.du1[0] * scale, r.du2[0] * scale}};
+  };
+  CHECK((over(0.5, 4.0) - over(1.7, 4.0) * over(0.5, 1.7)).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK((over(0.5, 4.0) * over(4.0, 0.5) - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("growth beyond the range of double stays in the exponent", "[integrate][propagator][extreme][N1][simd]") {
+  for (const double delta : {-1e4, -1e6}) {
+    const auto plan = plan_hill_steps(PeriodicFunction::constant(delta), 0.0, kPi, 1e-9);
+    const auto r = run(plan, 1, {{delta, 0.0}});
+    const double growth = std::log(r.u1[0]) + static_cast<double>(r.exponent[0]) * std::numbers::ln2;
+    CHECK(growth == Approx(kPi * std::sqrt(-delta) - std::numbers::ln2).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("what cannot be planned or does not fit is refused", "[integrate][propagator]") {
+  CHECK(plan_hill_steps(PeriodicFunction::constant(1e14), 0.0, kPi, 1e-9).steps == 0);
+  const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, 1)};
+  CHECK_THROWS_AS(HillPropagator({6, 0}, basis, 0.0, kPi), InvalidInput);
+  CHECK_THROWS_AS(HillPropagator({5, 4}, basis, 0.0, kPi), InvalidInput);
+  const HillPropagator propagator({6, 4}, basis, 0.0, kPi);
+  const std::vector<double> two{1.0, 2.0}, one{1.0};
+  HillPropagators result;
+  CHECK_THROWS_AS(propagator.propagate({two, {}}, result), InvalidInput);
+  CHECK_THROWS_AS(propagator.propagate({two, {one}}, result), InvalidInput);
+}
