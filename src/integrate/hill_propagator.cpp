@@ -18,7 +18,7 @@ constexpr double kLargestStep = 0.7;
 constexpr double kLargestWaveStep = 1.2;
 constexpr double kShareOfOrder = 0.7;
 constexpr int kMidpoints = 32;  // of the integral in the error formula, per harmonic
-constexpr double kHalvingSafety = 8.0;
+constexpr double kHalvingSafety = 16.0;
 
 /// The steps are rounded up to a few values per octave, so that many cells share a table.
 int rounded_up(double steps) {
@@ -123,7 +123,7 @@ void HillPropagator::propagate(const HillBatch& batch, HillPropagators& result) 
 }
 
 double HillPropagator::rounding() const {
-  return kUnit * (4.0 + 10.0 * std::sqrt(2.0 * static_cast<double>(drift_.size())));
+  return kUnit * (4.0 + 4.0 * std::sqrt(2.0 * static_cast<double>(drift_.size())));
 }
 
 }  // namespace strutt

@@ -35,10 +35,10 @@ IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wante
 
 }  // namespace
 
-void add_truncation(BoundedMatrix& matrix, const ScaledMatrix& check) {
+void add_truncation(BoundedMatrix& matrix, const ScaledMatrix& check, double share) {
   const int shift = static_cast<int>(std::clamp(check.exponent - matrix.value.exponent, -5000L, 5000L));
   const Eigen::MatrixXd same_scale = check.mantissa.unaryExpr([shift](double x) { return std::ldexp(x, shift); });
-  matrix.error.array() += kTruncationSafety * (matrix.value.mantissa - same_scale).cwiseAbs().maxCoeff();
+  matrix.error.array() += share * (matrix.value.mantissa - same_scale).cwiseAbs().maxCoeff();
 }
 
 LinearPropagator::LinearPropagator(int states, Backend backend)

@@ -18,7 +18,7 @@ namespace strutt {
 /// What is wanted of a monodromy matrix.
 struct MonodromyOptions {
   double tolerance = 1e-9;             ///< largest `error` wanted, 1e-13 <= tolerance <= 1e-2
-  Method method = Method::automatic;   ///< automatic, exact (piecewise-constant Hill equations), arkode, cvode
+  Method method = Method::automatic;   ///< automatic, exact (piecewise-constant Hill equations), propagator (Hill equations), arkode, cvode
   bool estimate_error = true;          ///< false: no second run; `error` then holds the rounding part only
   double max_seconds = std::numeric_limits<double>::infinity();  ///< per integration
   const std::atomic<bool>* cancel = nullptr;
@@ -60,8 +60,10 @@ class MonodromyEngine {
   MonodromyEngine(MonodromyEngine&&) noexcept;
   MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
 
-  /// Method::automatic: exact for a piecewise-constant coefficient, else arkode. The local tolerance starts at
-  /// max(tolerance/100, 1e-13) and is tightened while the error bound is above the tolerance.
+  /// Method::automatic: exact for a piecewise-constant coefficient, for other Hill equations the propagator (a splitting
+  /// with fixed steps, checked by a run with half of them) with arkode behind it where the tolerance is not reached; else
+  /// arkode. The local tolerance of SUNDIALS starts at max(tolerance/100, 1e-13). Both are tightened while the error bound
+  /// is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
   Monodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
   Monodromy compute(const LinearPeriodicSystem& system, const MonodromyOptions& options = {});

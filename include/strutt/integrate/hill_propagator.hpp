@@ -53,8 +53,11 @@ class HillPropagator {
   void propagate(const HillBatch& batch, HillPropagators& result) const;
 
   /// Bound of the rounding of a propagator, relative to its largest entry, state (Y, Y'/kappa): the roundings of the
-  /// stages add up like a random walk, of which this is 10 standard deviations, and those of the phase.
+  /// stages add up like a random walk, of which this is about 7 standard deviations. (The rounding of the coefficients
+  /// is not in it.)
   double rounding() const;
+
+  long evaluations() const { return static_cast<long>(kick_.size()); }  ///< of W, for one lane
 
  private:
   std::vector<double> drift_;  // a h, one per stage

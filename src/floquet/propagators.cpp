@@ -1,0 +1,48 @@
+#include "floquet/propagators.hpp"
+
+#include <limits>
+
+namespace strutt {
+namespace {
+
+// Of a step of SUNDIALS. Below the lowest, rounding grows faster than truncation falls.
+constexpr double kLowestLocalTolerance = 1e-13;
+constexpr double kHighestLocalTolerance = 1e-4;
+constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
+
+// Of a whole piece, by a splitting.
+constexpr double kLowestSplittingTolerance = 1e-15;
+constexpr double kSplittingShare = 0.2;
+
+}  // namespace
+
+void Propagators::append(Propagation&& step) {
+  if (outcome == Outcome::converged) outcome = step.outcome;
+  cost += step.cost;
+  estimate_cost += step.estimate_cost;
+  checks.push_back({std::move(step.check), Eigen::MatrixXd::Zero(step.matrix.error.rows(), step.matrix.error.cols())});
+  factors.push_back(std::move(step.matrix));
+}
+
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance) {
+  return {.local_tolerance = local_tolerance,
+          .estimate_error = options.estimate_error,
+          .max_seconds = options.max_seconds,
+          .cancel = options.cancel};
+}
+
+ToleranceLadder tolerance_ladder(Method method, double tolerance) {
+  if (method == Method::propagator) return {kSplittingShare * tolerance, kLowestSplittingTolerance};
+  return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance), kLowestLocalTolerance};
+}
+
+void judge(Monodromy& result, double tolerance) {
+  if (result.outcome == Outcome::converged && !(result.error <= tolerance)) {
+    result.outcome = std::isfinite(result.error) ? Outcome::tolerance_not_reached : Outcome::non_finite;
+  }
+  if (result.outcome != Outcome::converged && result.outcome != Outcome::tolerance_not_reached) {
+    result.error = std::numeric_limits<double>::infinity();
+  }
+}
+
+}  // namespace strutt

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "floquet/splitting_propagators.hpp"
+#include "strutt/floquet/monodromy.hpp"
+#include "strutt/integrate/linear_propagator.hpp"
+
+namespace strutt {
+
+/// What computes propagators, kept from one equation to the next.
+struct PropagatorPool {
+  SplittingPropagators splittings;
+  std::map<std::pair<int, Backend>, LinearPropagator> integrators;
+
+  LinearPropagator& integrator(int states, Method method) {
+    const Backend backend = method == Method::cvode ? Backend::cvode_adams : Backend::arkode_erk;
+    return integrators.try_emplace({states, backend}, states, backend).first->second;
+  }
+};
+
+Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method, const MonodromyOptions& options);
+Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
+                           const MonodromyOptions& options);
+
+/// Propagators of consecutive segments, and how their integration went.
+struct Propagators {
+  std::vector<BoundedMatrix> factors;  // with the bounds of their rounding
+  std::vector<BoundedMatrix> checks;   // the same from the second runs, without bounds; empty for closed forms
+  double truncation_share = kTruncationSafety;  // see add_truncation
+  Outcome outcome = Outcome::converged;
+  IntegrationCost cost, estimate_cost;
+
+  void append(Propagation&& step);
+};
+
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance);
+
+/// The result of putting the factors together, with the truncation that the second runs, put together the same way, show.
+template <typename PutTogether>
+Monodromy combined(const Propagators& propagators, const PutTogether& put_together) {
+  Monodromy result = put_together(propagators.factors);
+  result.cost = propagators.cost;
+  result.estimate_cost = propagators.estimate_cost;
+  result.outcome = propagators.outcome;
+  if (!propagators.checks.empty()) {
+    const Monodromy check = put_together(propagators.checks);
+    add_truncation(result.matrix, check.matrix.value, propagators.truncation_share);
+    add_truncation(result.undamped, check.undamped.value, propagators.truncation_share);
+    if (result.half) add_truncation(*result.half, check.half->value, propagators.truncation_share);
+  }
+  return result;
+}
+
+/// Local tolerances: where to begin, and below what not to go.
+struct ToleranceLadder {
+  double first, lowest;
+};
+ToleranceLadder tolerance_ladder(Method method, double tolerance);
+inline constexpr double kLadderStep = 0.01;
+
+/// How `result` ended, now that nothing tighter is tried.
+void judge(Monodromy& result, double tolerance);
+
+/// Runs attempt(local_tolerance) with tighter and tighter tolerances until the error is small enough.
+template <typename Attempt>
+Monodromy tighten(Method method, double tolerance, const Attempt& attempt) {
+  const ToleranceLadder ladder = tolerance_ladder(method, tolerance);
+  double local = ladder.first;
+  Monodromy result = attempt(local);
+  while (result.outcome == Outcome::converged && result.error > tolerance && local > ladder.lowest) {
+    local = std::max(kLadderStep * local, ladder.lowest);
+    const auto spent = result.cost, spent_estimating = result.estimate_cost;
+    result = attempt(local);
+    result.cost += spent;
+    result.estimate_cost += spent_estimating;
+  }
+  judge(result, tolerance);
+  return result;
+}
+
+}  // namespace strutt
