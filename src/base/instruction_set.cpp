@@ -16,8 +16,10 @@ bool runs_here(InstructionSet set) {
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
              __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
              __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("fma");
-    case InstructionSet::avx2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case InstructionSet::sse2: break;
+    case InstructionSet::avx2:
+      return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case InstructionSet::sse2:
+      break;
   }
   return true;
 }
@@ -34,7 +36,8 @@ InstructionSet chosen() {
     const auto set = static_cast<InstructionSet>(i);
     if (kNames[i] != asked) continue;
     if (runs_here(set)) return set;
-    throw InvalidInput("STRUTT_ISA", asked, "a set that this processor runs, at most " + std::string(to_string(widest())));
+    throw InvalidInput("STRUTT_ISA", asked,
+                       "a set that this processor runs, at most " + std::string(to_string(widest())));
   }
   throw InvalidInput("STRUTT_ISA", asked, "one of sse2, avx2, avx512");
 }

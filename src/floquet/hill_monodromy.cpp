@@ -40,7 +40,8 @@ Propagators closed_form_propagators(const HillEquation& equation, const Periodic
   for (const auto& segment : segments) {
     const double value = w.piece(0.5 * (segment.from + segment.to)).mean();
     const bool rounded_sum = !equation.coefficient.is_constant();  // mean +- amplitude
-    const double error = relative * (std::abs(value) + 0.5 * c * c) + (rounded_sum ? kUnit * std::abs(value) : 0.0);
+    const double error =
+        relative * (std::abs(value) + 0.5 * c * c) + (rounded_sum ? kUnit * std::abs(value) : 0.0);
     const double half_turns = (segment.to - segment.from) / pi;
     result.factors.push_back(constant_propagator(value, half_turns, kappa, error));
   }
@@ -55,8 +56,8 @@ Propagators splitting_propagators(SplittingPropagators& tables, const PeriodicFu
   for (const auto& piece : pieces) {
     if (options.cancel != nullptr && options.cancel->load()) result.outcome = Outcome::cancelled;
     if (result.outcome != Outcome::converged) return result;
-    auto step = tables.propagate(w.piece(0.5 * (piece.from + piece.to)), piece, kappa, options.local_tolerance,
-                                 coefficient_error, options.estimate_error);
+    auto step = tables.propagate(w.piece(0.5 * (piece.from + piece.to)), piece, kappa,
+                                 options.local_tolerance, coefficient_error, options.estimate_error);
     if (step.cost.steps == 0) result.outcome = Outcome::step_limit;
     result.cost += step.cost;
     result.estimate_cost += step.check_cost;
@@ -68,8 +69,8 @@ Propagators splitting_propagators(SplittingPropagators& tables, const PeriodicFu
 }
 
 Propagators integrated_propagators(LinearPropagator& integrator, const PeriodicFunction& w,
-                                   const std::vector<Segment>& segments, double kappa, double coefficient_error,
-                                   const PropagatorOptions& options) {
+                                   const std::vector<Segment>& segments, double kappa,
+                                   double coefficient_error, const PropagatorOptions& options) {
   Propagators result;
   for (const auto& segment : segments) {
     const auto piece = w.piece(0.5 * (segment.from + segment.to));
@@ -80,7 +81,8 @@ Propagators integrated_propagators(LinearPropagator& integrator, const PeriodicF
   return result;
 }
 
-/// The equation of y = exp(ct/2) x over half a period from a symmetric point, or over a whole one if there is none.
+/// The equation of y = exp(ct/2) x over half a period from a symmetric point, or over a whole one if there is
+/// none.
 struct Undamped {
   explicit Undamped(const HillEquation& equation)
       : centre(equation.coefficient.even_centre()),
@@ -105,12 +107,14 @@ Monodromy put_together(const HillEquation& equation, const Undamped& y, const st
   result.half_damping = equation.canonical_damping() * pi;
   if (y.centre) {
     result.half = ordered_product(factors, 2);
-    const auto before = std::count_if(segments.begin(), segments.end(), [&](const Segment& s) { return s.to <= *y.centre; });
+    const auto before =
+        std::count_if(segments.begin(), segments.end(), [&](const Segment& s) { return s.to <= *y.centre; });
     result.undamped = period_from_half(factors, static_cast<std::size_t>(before));
   } else {
     result.undamped = ordered_product(factors, 2);
   }
-  result.matrix = restore_damping(result.undamped, result.half_damping, 0.5 * equation.canonical_damping() / y.kappa);
+  result.matrix =
+      restore_damping(result.undamped, result.half_damping, 0.5 * equation.canonical_damping() / y.kappa);
   return result;
 }
 
@@ -119,7 +123,8 @@ Monodromy put_together(const HillEquation& equation, const Undamped& y, const st
 Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
                          const MonodromyOptions& options) {
   const Undamped y(equation);
-  // Only the steps of SUNDIALS need short intervals; a closed form cut into parts would turn proved zeros into rounding.
+  // Only the steps of SUNDIALS need short intervals; a closed form cut into parts would turn proved zeros
+  // into rounding.
   const bool integrated = method == Method::arkode || method == Method::cvode;
   const auto segments = integrated ? subdivided(y.pieces, y.w) : y.pieces;
   const double coefficient_error = evaluation_error(equation);
@@ -128,14 +133,16 @@ Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Met
     const auto wanted = propagator_options(options, local_tolerance);
     return method == Method::propagator
                ? splitting_propagators(pool.splittings, y.w, segments, y.kappa, coefficient_error, wanted)
-               : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa, coefficient_error, wanted);
+               : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa, coefficient_error,
+                                        wanted);
   };
   Monodromy result = tighten(method, options.tolerance, [&](double local_tolerance) {
     const Propagators found = propagators(local_tolerance);
     Monodromy attempt;
     attempt.outcome = found.outcome;
     if (found.outcome == Outcome::cancelled || found.outcome == Outcome::step_limit) return attempt;
-    attempt = combined(found, [&](const auto& factors) { return put_together(equation, y, segments, factors); });
+    attempt =
+        combined(found, [&](const auto& factors) { return put_together(equation, y, segments, factors); });
     for (const auto& factor : found.factors) {
       attempt.determinant_defect = std::max(attempt.determinant_defect, determinant_defect(factor));
     }

@@ -9,10 +9,12 @@
 namespace strutt {
 namespace {
 
-constexpr std::array kMethods{Method::automatic, Method::propagator, Method::exact, Method::arkode, Method::cvode};
+constexpr std::array kMethods{Method::automatic, Method::propagator, Method::exact, Method::arkode,
+                              Method::cvode};
 
 /// The splitting where it reaches the tolerance, otherwise whatever comes closest.
-Monodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equation, const MonodromyOptions& options) {
+Monodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
+                                   const MonodromyOptions& options) {
   Monodromy result = hill_monodromy(pool, equation, Method::propagator, options);
   if (result.outcome == Outcome::converged || result.outcome == Outcome::non_finite) return result;
   Monodromy other = hill_monodromy(pool, equation, Method::arkode, options);
@@ -28,7 +30,8 @@ Monodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equ
 void MonodromyOptions::validate() const {
   require(tolerance >= 1e-13 && tolerance <= 1e-2, "tolerance", tolerance, "in [1e-13, 1e-2]");
   if (std::find(kMethods.begin(), kMethods.end(), method) == kMethods.end()) {
-    throw InvalidInput("method", to_string(method), "one of auto, propagator, exact, arkode, cvode for a monodromy matrix");
+    throw InvalidInput("method", to_string(method),
+                       "one of auto, propagator, exact, arkode, cvode for a monodromy matrix");
   }
 }
 
@@ -44,9 +47,11 @@ Monodromy MonodromyEngine::compute(const HillEquation& equation, const Monodromy
   options.validate();
   const bool closed_form = equation.coefficient.is_piecewise_constant();
   if (options.method == Method::exact && !closed_form) {
-    throw InvalidInput("method exact needs a piecewise-constant coefficient; use auto, propagator, arkode or cvode");
+    throw InvalidInput(
+        "method exact needs a piecewise-constant coefficient; use auto, propagator, arkode or cvode");
   }
-  if (options.method != Method::automatic) return hill_monodromy(*workspace_, equation, options.method, options);
+  if (options.method != Method::automatic)
+    return hill_monodromy(*workspace_, equation, options.method, options);
   if (closed_form) return hill_monodromy(*workspace_, equation, Method::exact, options);
   return automatic_hill_monodromy(*workspace_, equation, options);
 }
@@ -55,7 +60,8 @@ Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const Mon
   system.validate();
   options.validate();
   if (options.method == Method::exact || options.method == Method::propagator) {
-    throw InvalidInput("method", to_string(options.method), "auto, arkode or cvode for a system of several degrees of freedom");
+    throw InvalidInput("method", to_string(options.method),
+                       "auto, arkode or cvode for a system of several degrees of freedom");
   }
   const Method method = options.method == Method::automatic ? Method::arkode : options.method;
   return system_monodromy(*workspace_, system, method, options);

@@ -20,7 +20,8 @@ void Propagators::append(Propagation&& step) {
   if (outcome == Outcome::converged) outcome = step.outcome;
   cost += step.cost;
   estimate_cost += step.estimate_cost;
-  checks.push_back({std::move(step.check), Eigen::MatrixXd::Zero(step.matrix.error.rows(), step.matrix.error.cols())});
+  checks.push_back(
+      {std::move(step.check), Eigen::MatrixXd::Zero(step.matrix.error.rows(), step.matrix.error.cols())});
   factors.push_back(std::move(step.matrix));
 }
 
@@ -33,7 +34,8 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
 
 ToleranceLadder tolerance_ladder(Method method, double tolerance) {
   if (method == Method::propagator) return {kSplittingShare * tolerance, kLowestSplittingTolerance};
-  return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance), kLowestLocalTolerance};
+  return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
+          kLowestLocalTolerance};
 }
 
 void judge(Monodromy& result, double tolerance) {

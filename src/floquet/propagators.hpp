@@ -23,14 +23,15 @@ struct PropagatorPool {
   }
 };
 
-Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method, const MonodromyOptions& options);
+Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
+                         const MonodromyOptions& options);
 Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
                            const MonodromyOptions& options);
 
 /// Propagators of consecutive segments, and how their integration went.
 struct Propagators {
   std::vector<BoundedMatrix> factors;  // with the bounds of their rounding
-  std::vector<BoundedMatrix> checks;   // the same from the second runs, without bounds; empty for closed forms
+  std::vector<BoundedMatrix> checks;  // the same from the second runs, without bounds; empty for closed forms
   double truncation_share = kTruncationSafety;  // see add_truncation
   Outcome outcome = Outcome::converged;
   IntegrationCost cost, estimate_cost;
@@ -40,7 +41,8 @@ struct Propagators {
 
 PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance);
 
-/// The result of putting the factors together, with the truncation that the second runs, put together the same way, show.
+/// The result of putting the factors together, with the truncation that the second runs, put together the
+/// same way, show.
 template <typename PutTogether>
 Monodromy combined(const Propagators& propagators, const PutTogether& put_together) {
   Monodromy result = put_together(propagators.factors);

@@ -29,8 +29,9 @@ Expansion expansion(const PeriodicFunction& w) {
 }
 
 ScaledMatrix scaled(const HillPropagators& lanes, double kappa) {
-  ScaledMatrix result{Eigen::MatrixXd{{lanes.u1[0], kappa * lanes.u2[0]}, {lanes.du1[0] / kappa, lanes.du2[0]}},
-                      lanes.exponent[0]};
+  ScaledMatrix result{
+      Eigen::MatrixXd{{lanes.u1[0], kappa * lanes.u2[0]}, {lanes.du1[0] / kappa, lanes.du2[0]}},
+      lanes.exponent[0]};
   return result;
 }
 
@@ -42,15 +43,17 @@ const HillPropagator& SplittingPropagators::table(Key key) {
   if (tables_.size() >= kMostTables) tables_.clear();
   std::vector<PeriodicFunction> basis;
   for (const int name : key.harmonics) {
-    basis.push_back(PeriodicFunction::fourier(0.0, {{std::abs(name), name > 0 ? 1.0 : 0.0, name > 0 ? 0.0 : 1.0}}));
+    basis.push_back(
+        PeriodicFunction::fourier(0.0, {{std::abs(name), name > 0 ? 1.0 : 0.0, name > 0 ? 0.0 : 1.0}}));
   }
   const HillStepPlan plan{key.order, key.steps};
   HillPropagator made(plan, basis, key.from, key.to);
   return tables_.emplace(std::move(key), std::move(made)).first->second;
 }
 
-SplittingPropagation SplittingPropagators::propagate(const PeriodicFunction& w, const Segment& piece, double kappa,
-                                                     double tolerance, double coefficient_error, bool with_check) {
+SplittingPropagation SplittingPropagators::propagate(const PeriodicFunction& w, const Segment& piece,
+                                                     double kappa, double tolerance, double coefficient_error,
+                                                     bool with_check) {
   SplittingPropagation result;
   const auto plan = plan_hill_steps(w, piece.from, piece.to, tolerance);
   if (plan.steps == 0) return result;
@@ -65,7 +68,8 @@ SplittingPropagation SplittingPropagators::propagate(const PeriodicFunction& w, 
   result.matrix.value = scaled(lanes, kappa);
   const double size = result.matrix.value.mantissa.cwiseAbs().maxCoeff();
   const double radians = std::sqrt(w.bound()) * (piece.to - piece.from);
-  result.matrix.error = Eigen::MatrixXd::Constant(2, 2, size * (full.rounding() + coefficient_error * radians));
+  result.matrix.error =
+      Eigen::MatrixXd::Constant(2, 2, size * (full.rounding() + coefficient_error * radians));
   result.matrix.normalise();
   result.cost = {.steps = plan.steps, .rejections = 0, .right_hand_sides = full.evaluations()};
   result.check = result.matrix.value;

@@ -14,17 +14,18 @@ namespace strutt {
 struct SplittingPropagation {
   BoundedMatrix matrix;  ///< state (Y, Y'/kappa); `error` bounds its rounding only
   ScaledMatrix check;
-  double truncation_share = 0.0;  ///< bound of the truncation as a share of |matrix - check|
+  double truncation_share = 0.0;     ///< bound of the truncation as a share of |matrix - check|
   IntegrationCost cost, check_cost;  ///< no steps: the tolerance needs too many
 };
 
-/// Propagates one equation after the other; the tables of cosines are kept, since the cells of a chart share them.
+/// Propagates one equation after the other; the tables of cosines are kept, since the cells of a chart share
+/// them.
 class SplittingPropagators {
  public:
-  /// Y'' + W Y = 0 over a piece on which W is smooth, to a truncation of about `tolerance`. `coefficient_error`: bound of
-  /// the relative error of W. Without `with_check` the second run is left out.
-  SplittingPropagation propagate(const PeriodicFunction& w, const Segment& piece, double kappa, double tolerance,
-                                 double coefficient_error, bool with_check);
+  /// Y'' + W Y = 0 over a piece on which W is smooth, to a truncation of about `tolerance`.
+  /// `coefficient_error`: bound of the relative error of W. Without `with_check` the second run is left out.
+  SplittingPropagation propagate(const PeriodicFunction& w, const Segment& piece, double kappa,
+                                 double tolerance, double coefficient_error, bool with_check);
 
  private:
   /// Order, steps, ends, and the harmonics: positive the order of a cosine, negative that of a sine.

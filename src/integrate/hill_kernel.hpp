@@ -6,10 +6,10 @@ namespace strutt::detail {
 
 /// The tables of a HillPropagator and the data of a batch, for the kernels.
 struct HillSweep {
-  const double* drift;   // a h
-  const double* kick;    // b h
-  const double* basis;   // b h f_j, kick by kick
-  std::size_t stages;    // drifts; one kick more
+  const double* drift;  // a h
+  const double* kick;   // b h
+  const double* basis;  // b h f_j, kick by kick
+  std::size_t stages;   // drifts; one kick more
   int functions;
   const double* mean;
   const double* const* weights;

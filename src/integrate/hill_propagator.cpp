@@ -12,12 +12,12 @@ namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-// Beyond these products of step and frequency, of the solution and of the coefficient, the error of half the steps says
-// nothing of that of all.
+// Beyond these products of step and frequency, of the solution and of the coefficient, the error of half the
+// steps says nothing of that of all.
 constexpr double kLargestStep = 0.7;
 constexpr double kLargestWaveStep = 1.2;
 constexpr double kShareOfOrder = 0.7;
-constexpr int kMidpoints = 32;  // of the integral in the error formula, per harmonic
+constexpr int kMidpoints = 16;  // of the integral in the error formula, per harmonic
 constexpr double kHalvingSafety = 16.0;
 
 /// The steps are rounded up to a few values per octave, so that many cells share a table.
@@ -30,29 +30,24 @@ int rounded_up(double steps) {
   }
 }
 
-/// Integral of |W| (sqrt|W| + k)^(p-1), by the midpoint rule.
-double error_integral(const PeriodicFunction& w, double from, double to, int order) {
-  const double k = kShareOfOrder * w.highest_order();
+/// |W| at the middles of equal parts of the piece.
+std::vector<double> sampled_size(const PeriodicFunction& w, double from, double to) {
   const int points = w.is_constant() ? 1 : kMidpoints * w.highest_order();
+  std::vector<double> size;
+  for (int j = 0; j < points; ++j) size.push_back(std::abs(w(std::lerp(from, to, (j + 0.5) / points))));
+  return size;
+}
+
+/// Integral of |W| (sqrt|W| + k)^(p-1), by the midpoint rule.
+double error_integral(const std::vector<double>& size, double k, double length, int order) {
   double sum = 0.0;
-  for (int j = 0; j < points; ++j) {
-    const double value = std::abs(w(std::lerp(from, to, (j + 0.5) / points)));
+  for (const double value : size) {
     const double base = std::sqrt(value) + k;
     double term = value;
     for (int i = 1; i < order; ++i) term *= base;
     sum += term;
   }
-  return sum * (to - from) / points;
-}
-
-HillStepPlan plan_with(const detail::Splitting& scheme, const PeriodicFunction& w, double from, double to,
-                       double tolerance) {
-  const double scale = scheme.error_constant * error_integral(w, from, to, scheme.order);
-  const double largest = std::min(kLargestStep / std::sqrt(std::max(w.bound(), 1e-300)),
-                                  kLargestWaveStep / std::max(w.highest_order(), 1));
-  const double step = std::min(std::pow(tolerance / scale, 1.0 / scheme.order), largest);
-  const double steps = (to - from) / step;
-  return {scheme.order, steps <= kMostHillSteps ? rounded_up(steps) : 0};
+  return sum * length / static_cast<double>(size.size());
 }
 
 std::size_t stages_of(const HillStepPlan& plan) {
@@ -62,14 +57,24 @@ std::size_t stages_of(const HillStepPlan& plan) {
 }  // namespace
 
 HillStepPlan plan_hill_steps(const PeriodicFunction& w, double from, double to, double tolerance) {
-  const auto fourth = plan_with(detail::splitting(4), w, from, to, tolerance);
-  const auto sixth = plan_with(detail::splitting(6), w, from, to, tolerance);
-  return fourth.steps > 0 && stages_of(fourth) < stages_of(sixth) ? fourth : sixth;
+  const auto size = sampled_size(w, from, to);
+  const double k = kShareOfOrder * w.highest_order(), length = to - from;
+  const double largest = std::min(kLargestStep / std::sqrt(std::max(w.bound(), 1e-300)),
+                                  kLargestWaveStep / std::max(w.highest_order(), 1));
+  HillStepPlan best;
+  for (const int order : {6, 4}) {
+    const double scale = detail::splitting(order).error_constant * error_integral(size, k, length, order);
+    const double steps = length / std::min(std::pow(tolerance / scale, 1.0 / order), largest);
+    const HillStepPlan plan{order, steps <= kMostHillSteps ? rounded_up(steps) : 0};
+    if (plan.steps > 0 && (best.steps == 0 || stages_of(plan) < stages_of(best))) best = plan;
+  }
+  return best;
 }
 
 double halving_share(int order) { return kHalvingSafety / (std::exp2(order) - 1.0); }
 
-HillPropagator::HillPropagator(const HillStepPlan& plan, std::span<const PeriodicFunction> basis, double from, double to)
+HillPropagator::HillPropagator(const HillStepPlan& plan, std::span<const PeriodicFunction> basis, double from,
+                               double to)
     : functions_(static_cast<int>(basis.size())) {
   require(plan.steps >= 1, "steps", plan.steps, "at least 1");
   const auto& scheme = detail::splitting(plan.order);
@@ -95,7 +100,8 @@ HillPropagator::HillPropagator(const HillStepPlan& plan, std::span<const Periodi
 
 void HillPropagator::propagate(const HillBatch& batch, HillPropagators& result) const {
   if (batch.weights.size() != static_cast<std::size_t>(functions_)) {
-    throw InvalidInput("weights", std::to_string(batch.weights.size()), "as many as there are basis functions");
+    throw InvalidInput("weights", std::to_string(batch.weights.size()),
+                       "as many as there are basis functions");
   }
   std::vector<const double*> weights;
   for (const auto& w : batch.weights) {

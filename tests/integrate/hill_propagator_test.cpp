@@ -21,7 +21,8 @@ struct Point {
   double delta, epsilon;
 };
 
-/// u1, u1', u2, u2' at pi of Y'' + (delta + epsilon cos(k theta)) Y = 0 by Taylor series of degree 22 in long double.
+/// u1, u1', u2, u2' at pi of Y'' + (delta + epsilon cos(k theta)) Y = 0 by Taylor series of degree 22 in long
+/// double.
 std::array<long double, 4> taylor(Point p, int k, int steps) {
   constexpr int kDegree = 22;
   const long double h = std::numbers::pi_v<long double> / steps;
@@ -70,13 +71,17 @@ HillPropagators run(const HillStepPlan& plan, int order, const std::vector<Point
 }
 
 /// Largest error of the entries in the state (Y, Y'/kappa), relative to the largest entry.
-double error_of(const HillPropagators& r, std::size_t lane, const std::array<long double, 4>& truth, double kappa) {
+double error_of(const HillPropagators& r, std::size_t lane, const std::array<long double, 4>& truth,
+                double kappa) {
   const std::array<long double, 4> scale{1.0L, 1.0L / kappa, kappa, 1.0L};
   const std::array<double, 4> value{r.u1[lane], r.du1[lane], r.u2[lane], r.du2[lane]};
   long double largest = 0, error = 0;
   for (std::size_t i = 0; i < 4; ++i) {
     largest = std::max(largest, std::abs(truth[i] * scale[i]));
-    error = std::max(error, std::abs((std::ldexp(static_cast<long double>(value[i]), static_cast<int>(r.exponent[lane])) - truth[i]) * scale[i]));
+    error = std::max(
+        error, std::abs((std::ldexp(static_cast<long double>(value[i]), static_cast<int>(r.exponent[lane])) -
+                         truth[i]) *
+                        scale[i]));
   }
   return static_cast<double>(error / largest);
 }
@@ -113,7 +118,8 @@ TEST_CASE("halving the step divides the error by 2^order", "[integrate][propagat
   }
 }
 
-TEST_CASE("the steps of a plan reach its tolerance, and half the steps tell by how much", "[integrate][propagator][simd]") {
+TEST_CASE("the steps of a plan reach its tolerance, and half the steps tell by how much",
+          "[integrate][propagator][simd]") {
   struct Region {
     Point low, high;
     int order;
@@ -133,9 +139,12 @@ TEST_CASE("the steps of a plan reach its tolerance, and half the steps tell by h
     const auto plan = plan_hill_steps(harmonic(p.delta, p.epsilon, region.order), 0.0, kPi, tolerance);
     REQUIRE(plan.steps >= 4);
     const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, region.order)};
-    const auto full = run(plan, region.order, {p}), half = run({plan.order, plan.steps / 2}, region.order, {p});
+    const auto full = run(plan, region.order, {p}),
+               half = run({plan.order, plan.steps / 2}, region.order, {p});
     const double kappa = kappa_of(p.delta);
-    const auto truth = taylor(p, region.order, 60 + static_cast<int>(4.0 * std::sqrt(std::abs(p.delta) + p.epsilon)) + 4 * region.order);
+    const auto truth =
+        taylor(p, region.order,
+               60 + static_cast<int>(4.0 * std::sqrt(std::abs(p.delta) + p.epsilon)) + 4 * region.order);
     const double error = error_of(full, 0, truth, kappa);
     std::array<long double, 4> other{half.u1[0], half.du1[0], half.u2[0], half.du2[0]};
     for (auto& x : other) x = std::ldexp(x, static_cast<int>(half.exponent[0]));
@@ -190,9 +199,10 @@ TEST_CASE("one basis function by the general kernel is the special one", "[integ
 }
 
 TEST_CASE("several harmonics, and a start that is not 0", "[integrate][propagator][simd]") {
-  // W = 2 + 0.7 cos + 0.2 sin - 0.3 cos 2: the propagator over [a, c] is that over [b, c] times that over [a, b]
-  const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, 1), PeriodicFunction::fourier(0.0, {{1, 0.0, 1.0}}),
-                                            harmonic(0.0, 1.0, 2)};
+  // W = 2 + 0.7 cos + 0.2 sin - 0.3 cos 2: the propagator over [a, c] is that over [b, c] times that over [a,
+  // b]
+  const std::vector<PeriodicFunction> basis{
+      harmonic(0.0, 1.0, 1), PeriodicFunction::fourier(0.0, {{1, 0.0, 1.0}}), harmonic(0.0, 1.0, 2)};
   const std::vector<double> mean{2.0}, c1{0.7}, s1{0.2}, c2{-0.3};
   const auto over = [&](double from, double to) {
     HillPropagators r;
@@ -204,7 +214,8 @@ TEST_CASE("several harmonics, and a start that is not 0", "[integrate][propagato
   CHECK((over(0.5, 4.0) * over(4.0, 0.5) - Eigen::Matrix2d::Identity()).cwiseAbs().maxCoeff() < 1e-12);
 }
 
-TEST_CASE("growth beyond the range of double stays in the exponent", "[integrate][propagator][extreme][N1][simd]") {
+TEST_CASE("growth beyond the range of double stays in the exponent",
+          "[integrate][propagator][extreme][N1][simd]") {
   for (const double delta : {-1e4, -1e6}) {
     const auto plan = plan_hill_steps(PeriodicFunction::constant(delta), 0.0, kPi, 1e-9);
     const auto r = run(plan, 1, {{delta, 0.0}});

@@ -15,16 +15,17 @@ struct HillStepPlan {
 };
 inline constexpr int kMostHillSteps = 100'000;
 
-/// The cheaper of the two orders p for an expected error of `tolerance` in the propagator of Y'' + W Y = 0 over
-/// [from, to], relative to its largest entry in the state (Y, Y'/kappa):
-///   error ~ c_p h^p integral |W| (sqrt|W| + k)^(p-1) dtheta,   k = 0.7 times the highest order of the harmonics of W.
-/// The formula was found by trial (delta to 1e4, epsilon to 1e3, harmonics to order 20) and is no bound: what was
-/// reached is known from a second run with half the steps. Depends on the equation only, never on what it is
-/// computed together with.
+/// The cheaper of the two orders p for an expected error of `tolerance` in the propagator of Y'' + W Y = 0
+/// over [from, to], relative to its largest entry in the state (Y, Y'/kappa):
+///   error ~ c_p h^p integral |W| (sqrt|W| + k)^(p-1) dtheta,   k = 0.7 times the highest order of the
+///   harmonics of W.
+/// The formula was found by trial (delta to 1e4, epsilon to 1e3, harmonics to order 20) and is no bound: what
+/// was reached is known from a second run with half the steps. Depends on the equation only, never on what it
+/// is computed together with.
 HillStepPlan plan_hill_steps(const PeriodicFunction& w, double from, double to, double tolerance);
 
-/// The error of n steps seen in a run of n/2 is their difference divided by 2^p - 1; this bound of it, as a share of
-/// the difference, leaves room for steps at which the next order still counts.
+/// The error of n steps seen in a run of n/2 is their difference divided by 2^p - 1; this bound of it, as a
+/// share of the difference, leaves room for steps at which the next order still counts.
 double halving_share(int order);
 
 /// Hill equations that share their functions of the phase:
@@ -40,10 +41,11 @@ struct HillPropagators {
   std::vector<long> exponent;
 };
 
-/// Runge-Kutta-Nystroem splittings (Blanes, Moan, J. Comput. Appl. Math. 142 (2002) 313-330, the methods SRKN 6b of
-/// order 4 and SRKN 11b of order 6) with fixed steps over [from, to], tabulated once for any number of batches: drifts
-/// Y += a h Y' and kicks Y' -= b h W Y, so that det = 1 up to rounding. The lanes are vectorised with the instruction
-/// set of base/instruction_set.hpp; every lane has the same bits whatever stands beside it.
+/// Runge-Kutta-Nystroem splittings (Blanes, Moan, J. Comput. Appl. Math. 142 (2002) 313-330, the methods SRKN
+/// 6b of order 4 and SRKN 11b of order 6) with fixed steps over [from, to], tabulated once for any number of
+/// batches: drifts Y += a h Y' and kicks Y' -= b h W Y, so that det = 1 up to rounding. The lanes are
+/// vectorised with the instruction set of base/instruction_set.hpp; every lane has the same bits whatever
+/// stands beside it.
 class HillPropagator {
  public:
   /// steps >= 1; order 4 or 6. Throws InvalidInput.
@@ -52,9 +54,9 @@ class HillPropagator {
   /// Integrates all lanes; results are resized. Throws InvalidInput when the lengths in `batch` do not agree.
   void propagate(const HillBatch& batch, HillPropagators& result) const;
 
-  /// Bound of the rounding of a propagator, relative to its largest entry, state (Y, Y'/kappa): the roundings of the
-  /// stages add up like a random walk, of which this is about 7 standard deviations. (The rounding of the coefficients
-  /// is not in it.)
+  /// Bound of the rounding of a propagator, relative to its largest entry, state (Y, Y'/kappa): the roundings
+  /// of the stages add up like a random walk, of which this is about 7 standard deviations. (The rounding of
+  /// the coefficients is not in it.)
   double rounding() const;
 
   long evaluations() const { return static_cast<long>(kick_.size()); }  ///< of W, for one lane
