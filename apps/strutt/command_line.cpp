@@ -81,7 +81,7 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
       ->type_name("SCENE");
   command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
       ->type_name("T");
-  command.add_option("--method", arguments.method, "auto (default), cvode, arkode, exact")->type_name("M");
+  command.add_option("--method", arguments.method, "auto (default), propagator, cvode, arkode, exact")->type_name("M");
   command.add_option("--threads", arguments.threads, "number of threads (default: all)")->type_name("N");
   command
       .add_option("--set", arguments.set,

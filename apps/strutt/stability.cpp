@@ -26,19 +26,12 @@ struct Points {
   std::vector<std::vector<double>> values;
 };
 
-/// Does the closed form exist for this model?
-bool has_closed_form(const LinearModel& model) {
-  if (const auto* equation = std::get_if<HillEquation>(&model))
-    return equation->coefficient.is_piecewise_constant();
-  const auto equation = as_hill_equation(std::get<LinearPeriodicSystem>(model));
-  return equation && equation->coefficient.is_piecewise_constant();
-}
-
 void check_method(Method method, const LinearModel& model) {
-  if (method != Method::exact || has_closed_form(model)) return;
-  throw UsageError(
-      "--method exact needs a coefficient that is constant piece by piece; available are auto, cvode, "
-      "arkode");
+  try {
+    method_for(model, method);
+  } catch (const InvalidInput& error) {
+    throw UsageError(std::string("--method: ") + error.what());
+  }
 }
 
 /// A scene whose parameters are set row by row.
@@ -180,7 +173,7 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
 ExitCode run(const StabilityArguments& arguments) {
   const MonodromyOptions options{
       .tolerance = tolerance_of(arguments),
-      .method = method_of(arguments, "stability", {Method::cvode, Method::arkode, Method::exact}),
+      .method = method_of(arguments, "stability", {Method::propagator, Method::cvode, Method::arkode, Method::exact}),
       .cancel = &cancel_flag()};
   const int threads = threads_of(arguments);
   if (arguments.points == "-" && arguments.scene == "-")

@@ -115,6 +115,27 @@ std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system)
   return hill_equation(system.period, w, *c);
 }
 
+Method method_for(const LinearModel& model, Method asked) {
+  std::optional<HillEquation> equation;
+  if (const auto* hill = std::get_if<HillEquation>(&model)) {
+    equation = *hill;
+  } else {
+    equation = as_hill_equation(std::get<LinearPeriodicSystem>(model));
+  }
+  const bool closed_form = equation && equation->coefficient.is_piecewise_constant();
+  if (asked == Method::automatic) {
+    return closed_form ? Method::exact : equation ? Method::propagator : Method::arkode;
+  }
+  if (asked == Method::exact && !closed_form) {
+    throw InvalidInput("method exact needs a piecewise-constant coefficient; use auto, propagator, arkode or cvode");
+  }
+  if (asked == Method::propagator && !equation) {
+    throw InvalidInput("method propagator needs a system of one degree of freedom; use auto, arkode or cvode");
+  }
+  MonodromyOptions{.method = asked}.validate();
+  return asked;
+}
+
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options,
                   const StabilityParts& parts) {
   if (const auto* equation = std::get_if<HillEquation>(&model)) {

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "io/text.hpp"
+#include "strutt/base/instruction_set.hpp"
 
 // SUNDIALS' headers stay in src/integrate; for the version of the loaded library one declaration is enough.
 extern "C" int SUNDIALSGetVersion(char* version, int length);
@@ -76,6 +77,7 @@ Provenance make_provenance(const std::string& command) {
                     {"version", STRUTT_VERSION},
                     {"compiler", compiler()},
                     {"libraries", libraries()},
+                    {"instruction set", std::string(to_string(instruction_set()))},
                     {"date", utc_date()}};
   if (!command.empty()) result.emplace_back("command", command);
   return result;
