@@ -163,6 +163,14 @@ std::optional<double> PeriodicFunction::even_centre() const {
   return std::nullopt;
 }
 
+double PeriodicFunction::asymmetry(double theta0) const {
+  double largest = 0.0;
+  for (const auto& h : harmonics_) {
+    largest = std::max(largest, std::abs(shifted_harmonic(h, theta0).sine) / std::hypot(h.cosine, h.sine));
+  }
+  return largest;
+}
+
 PeriodicFunction PeriodicFunction::shifted(double theta0) const {
   PeriodicFunction result = *this;
   result.shift_ -= theta0;

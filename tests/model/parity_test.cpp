@@ -66,3 +66,13 @@ TEST_CASE("What is not even has no centre", "[model][periodic_function][parity]"
   CHECK(PeriodicFunction::fourier(0.0, {{1, 0.0, 1.0}, {3, 0.0, 1.0}}).even_centre().has_value());
   CHECK_FALSE(PeriodicFunction::fourier(0.0, {{1, 1.0, 0.0}, {3, 0.0, 1.0}}).even_centre());
 }
+
+TEST_CASE("asymmetry measures what an even centre leaves out", "[model][periodic_function][parity]") {
+  const auto nearly = PeriodicFunction::fourier(1.0, {{1, 2.0, 0.0}, {2, 0.5, 1e-15}});
+  REQUIRE(nearly.even_centre() == 0.0);
+  CHECK(nearly.asymmetry(0.0) == Approx(2e-15).epsilon(1e-12));
+  CHECK(PeriodicFunction::fourier(1.0, {{1, 2.0, 0.0}, {2, 0.5, 0.0}}).asymmetry(0.0) == 0.0);
+  CHECK(PeriodicFunction::fourier(0.0, {{1, 3e-200, 4e-200}}).asymmetry(0.0) == Approx(0.8).epsilon(1e-15));
+  CHECK(PeriodicFunction::fourier(0.0, {{1, 0.0, 4.0}}).asymmetry(kPi / 2.0) < 1e-16);
+  CHECK(PeriodicFunction::square(0.0, 1.0, 0.7).asymmetry(0.7) == 0.0);
+}

@@ -51,6 +51,9 @@ class PeriodicFunction {
   /// (theta0 + pi is then another such point.)
   std::optional<double> even_centre() const;
 
+  /// The largest sine part of a harmonic seen from theta0, relative to that harmonic: what centred() drops. 0 for squares.
+  double asymmetry(double theta0) const;
+
   PeriodicFunction shifted(double theta0) const;  ///< tau -> f(theta0 + tau)
   /// As shifted(theta0) for an even centre theta0, with the sine terms dropped (they are rounding).
   PeriodicFunction centred(double theta0) const;
