@@ -158,6 +158,7 @@ Monodromy MonodromyEngine::compute(const HillEquation& equation, const Monodromy
   // A closed form is exact over a whole piece: cutting it would turn zeros that are proved into rounding.
   const auto segments = method == Method::exact ? pieces : subdivided(pieces, w);
 
+  const double relative_error = evaluation_error(equation) + (centre ? equation.coefficient.asymmetry(theta0) : 0.0);
   const auto integrate = [&](double local_tolerance) {
     Propagators result;
     auto& propagator = workspace_->propagator(2, backend_of(method));
@@ -165,7 +166,7 @@ Monodromy MonodromyEngine::compute(const HillEquation& equation, const Monodromy
       const auto piece = w.piece(0.5 * (segment.from + segment.to));
       const double length = segment.to - segment.from;
       append(result, propagator.propagate(hill_right_hand_side(piece, segment.from, kappa), 0.0, length,
-                                          std::sqrt(piece.bound()) * length, evaluation_error(equation),
+                                          std::sqrt(piece.bound()) * length, relative_error,
                                           propagator_options(options, local_tolerance)));
     }
     return result;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,6 +94,42 @@ TEST_CASE("the number of steps shows the order of a method", "[integrate][accura
     const long many = integrate(mathieu, 0.0, 60.0, y, options_of(method, tight)).cost.steps;
     const double order = std::log(1e3) / std::log(static_cast<double>(many) / static_cast<double>(few));
     CHECK(order > method.order - 0.5);
+  }
+}
+
+TEST_CASE("halving the step cuts the error by two to the order, at a fixed price for each step",
+          "[integrate][accuracy][cost]") {
+  // Kepler's ellipse of eccentricity 0.3, back at its start after 2 pi: nonlinear, so that every order condition
+  // counts. The tolerance accepts every step, so that max_step decides.
+  const auto f = [](double, StateView y, StateOut dydt) {
+    const double cube = std::pow(y[0] * y[0] + y[1] * y[1], 1.5);
+    dydt[0] = y[2], dydt[1] = y[3], dydt[2] = -y[0] / cube, dydt[3] = -y[1] / cube;
+  };
+  // It starts far out, where the first steps, which are shorter, matter least.
+  const VectorXd start = vector({1.3, 0.0, 0.0, std::sqrt(0.7 / 1.3)});
+  const auto run = [&](const Method& method, int steps) {
+    IntegratorOptions options = options_of(method, 1e6);
+    options.max_step = 2.0 * M_PI / steps;
+    VectorXd y = start;
+    const auto result = integrate(f, 0.0, 2.0 * M_PI, y, options);
+    CHECK(result.outcome == Outcome::converged);
+    CHECK(result.cost.steps >= steps);
+    CHECK(result.cost.steps <= steps + 6);
+    CHECK(result.cost.rejections == 0);
+    return std::pair{(y - start).norm(), result.cost};
+  };
+  const std::map<int, long> stages{{2, 2}, {3, 3}, {4, 5}, {5, 6}, {6, 8}, {8, 13}};  // new ones in each step
+  for (const Method& method : kMethods) {
+    if (method.backend != Backend::arkode_erk) continue;
+    INFO(name(method));
+    const int steps = method.order <= 3 ? 2000 : method.order <= 5 ? 400 : method.order == 6 ? 150 : 36;
+    const auto [coarse, coarse_cost] = run(method, steps);
+    const auto [fine, fine_cost] = run(method, 2 * steps);
+    CHECK(std::log2(coarse / fine) == Approx(method.order).margin(0.4));  // terms of the next order are still seen
+    // three more: the slope at the start and two to guess the first step
+    for (const auto& cost : {coarse_cost, fine_cost}) {
+      CHECK(cost.right_hand_sides == stages.at(method.order) * cost.steps + 3);
+    }
   }
 }
 

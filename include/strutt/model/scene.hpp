@@ -38,14 +38,14 @@ struct SupportTable {
   double amplitude = 0.0;  // m
   double frequency = 0.0;  // rad/s, required
   double phase = 0.0;      // rad
-  std::vector<Harmonic> harmonics;
-  std::vector<double> samples;  // m
+  std::vector<Harmonic> harmonics = {};
+  std::vector<double> samples = {};  // m
 };
 
 /// [moment]: M(t), N m.
 struct MomentTable {
   double constant = 0.0;
-  std::vector<Harmonic> harmonics;
+  std::vector<Harmonic> harmonics = {};
   std::optional<double> frequency;  // rad/s; that of the support unless given
 };
 
@@ -63,7 +63,7 @@ struct HillTable {
   double period = 0.0;                      // required
   double mean = 0.0;
   double amplitude = 0.0;  // square only: w = mean + amplitude sign(cos(2 pi t/period))
-  std::vector<Harmonic> harmonics;
+  std::vector<Harmonic> harmonics = {};
   double damping = 0.0;
 };
 
