@@ -224,6 +224,15 @@ TEST_CASE("strips out of order are a bug that is seen", "[io][chart_file]") {
   CHECK_THROWS_AS(writer->commit(), std::logic_error);
 }
 
+TEST_CASE("a strip with values beyond its rows is a bug that is seen", "[io][chart_file]") {
+  const ScratchDirectory directory;
+  const std::string name = GENERATE("c.csv", "c.npy", "c.npz", "c.h5");
+  const auto writer = make_chart_writer(directory / name, description_of(4, 4, {Layer::growth}));
+  auto strip = strip_of(description_of(4, 4, {Layer::growth}), 0, 4);
+  strip.rows = 3;
+  CHECK_THROWS_AS(writer->write(strip), std::logic_error);
+}
+
 TEST_CASE("a place that cannot be written is found before anything is computed", "[io][chart_file][F9]") {
   const ScratchDirectory directory;
   const std::string name = GENERATE("c.csv", "c.npy", "c.npz", "c.h5");
