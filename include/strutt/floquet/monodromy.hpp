@@ -41,7 +41,7 @@ struct Monodromy {
   double kappa = 1.0;        ///< in the scene's unit of time
 
   /// Upper bound of the error of trace M and of every entry of `matrix`, divided by max(1, largest |entry|), the
-  /// rounding of results to double included (CLI.md, column `error`). +inf when there is no result.
+  /// rounding of results to double included (docs/conventions.md). +inf when there is no result.
   double error = std::numeric_limits<double>::infinity();
   /// Largest |det - 1| of the integrated propagators of y, each divided by its squared norm (numerical extremes N3).
   double determinant_defect = 0.0;

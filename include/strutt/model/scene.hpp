@@ -85,7 +85,7 @@ struct ParameterInfo {
   std::string label;  ///< for axes, e.g. "support frequency"
 };
 
-/// The numeric parameter that `path` names in this scene (CLI.md: `support.frequency`, `mathieu.delta`,
+/// The numeric parameter that `path` names in this scene (docs/scene.md: `support.frequency`, `mathieu.delta`,
 /// `hill.harmonics.1.cos`, `linear.stiffness.harmonics.1.cos.0.1`), for reading and writing in place.
 /// Parameters of absent tables, of an unused shape or waveform, and of orders not in the list do not exist:
 /// throws InvalidInput naming the path and the nearest one that does.
