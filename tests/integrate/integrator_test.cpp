@@ -117,6 +117,19 @@ TEST_CASE("the trace of Mathieu's equation", "[integrate][accuracy]") {
         1200);  // twice that if the end of a step were not the start of the next
 }
 
+TEST_CASE("the first step is tried as given, in both directions", "[integrate][cost]") {
+  for (const double end : {0.5, -0.5}) {
+    INFO("to " << end);
+    IntegratorOptions options = options_of({Backend::arkode_erk, 8}, 1e-6);
+    VectorXd y = vector({1.0, 0.0});
+    CHECK(integrate(oscillator, 0.0, end, y, options).cost.steps > 1);
+    options.first_step = 0.5;
+    y = vector({1.0, 0.0});
+    CHECK(integrate(oscillator, 0.0, end, y, options).cost.steps == 1);
+    CHECK(std::abs(y[0] - std::cos(end)) < 1e-6);
+  }
+}
+
 TEST_CASE("costs are what was spent", "[integrate][cost]") {
   for (const Method& method : kMethods) {
     INFO(name(method));
