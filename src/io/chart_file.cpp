@@ -52,6 +52,9 @@ void StripOrder::take(const ChartStrip& strip) {
       strip.rows > rows_ - next_row_) {
     throw std::logic_error("a strip of a chart is out of order");
   }
+  for (const auto& layer : strip.values) {
+    if (layer.size() != strip.rows * strip.columns) throw std::logic_error("a strip of a chart is not full");
+  }
   next_row_ += strip.rows;
 }
 
