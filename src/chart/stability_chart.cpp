@@ -20,7 +20,7 @@ constexpr std::size_t kBatchCells = 512;  // per thread between two looks at pro
 
 // Cost of a cell, measured on one core of a 2020s server at tolerance 1e-9; for the forecast only.
 constexpr double kSecondsClosedForm = 5e-6;
-constexpr double kSecondsIntegrated = 4e-4;
+constexpr double kSecondsIntegrated = 1e-4;
 
 double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));

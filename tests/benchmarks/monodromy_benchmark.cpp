@@ -78,7 +78,8 @@ const std::vector<Contestant>& loops() {
   static const std::vector<Contestant> all = [] {
     using strutt::detail::butcher_table;
     const auto half = Span::half_period;
-    const StepControl plain{}, first_step{5.0, false}, tuned{5.0, true};
+    const StepControl plain{}, first_step{.first_step_radians = 5.0},
+        tuned{.first_step_radians = 5.0, .grow_at_once = true};
     return std::vector{
         contestant<ArkodeLoop>("order_8", points(), half, butcher_table(8), plain),
         contestant<ArkodeLoop>("order_8_first_step", points(), half, butcher_table(8), first_step),
@@ -91,6 +92,16 @@ const std::vector<Contestant>& loops() {
         contestant<CvodeLoop>("adams_full_period", points(), Span::period),
     };
   }();
+  return all;
+}
+
+/// What is more than a loop around a SUNDIALS stepper.
+const std::vector<Contestant>& others() {
+  static const std::vector<Contestant> all{
+      contestant<ArkodeLoop>("order_8_tuned_own_sums", points(), Span::half_period,
+                             strutt::detail::butcher_table(8),
+                             StepControl{.first_step_radians = 5.0, .grow_at_once = true, .own_sums = true}),
+      contestant<OdeintLoop>("odeint_fehlberg_7_8", points(), Span::half_period)};
   return all;
 }
 
@@ -207,9 +218,7 @@ BENCHMARK(chart_on_threads)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMil
       tuned(*engine);
     }
     for (const auto& loop : loops()) tuned(loop);
-    static const Contestant odeint =
-        contestant<OdeintLoop>("odeint_fehlberg_7_8", points(), Span::half_period);
-    tuned(odeint);
+    for (const auto& other : others()) tuned(other);
   }
   return true;
 }();

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "integrate/sundials_tables.hpp"
+#include "integrate/sundials_vector.hpp"
 #include "mathieu_points.hpp"
 
 /// The loops a user would write by hand around bare SUNDIALS: one stepper, restarted point after point, a C
@@ -42,10 +43,10 @@ inline void require_success(int flag) {
 /// What both steppers need: a context and the state, its linear combinations fused into one sweep.
 class SundialsState {
  public:
-  SundialsState() {
+  explicit SundialsState(bool own_sums = false) {
     require_success(SUNContext_Create(nullptr, &context_));
-    y_ = N_VNew_Serial(4, context_);
-    require_success(N_VEnableFusedOps_Serial(y_, SUNTRUE));
+    y_ = own_sums ? strutt::detail::make_state_vector(4, context_).release() : N_VNew_Serial(4, context_);
+    if (!own_sums) require_success(N_VEnableFusedOps_Serial(y_, SUNTRUE));
     N_VConst(0.0, y_);
   }
   SundialsState(const SundialsState&) = delete;
@@ -84,13 +85,14 @@ inline Matrix monodromy(Span span, const double* y) {
 struct StepControl {
   double first_step_radians = 0.0;  // times tolerance^(1/order); 0: left to ARKODE
   bool grow_at_once = false;        // ARKODE keeps the step until it could grow by half
+  bool own_sums = false;            // the vectors of Strutt's steppers, not those of SUNDIALS
 };
 
 /// ARKODE's explicit steppers.
 class ArkodeLoop {
  public:
   ArkodeLoop(Span span, strutt::detail::ButcherTable table, StepControl control)
-      : span_(span), control_(control), order_(table->q) {
+      : span_(span), control_(control), order_(table->q), state_(control.own_sums) {
     memory_ = ERKStepCreate(mathieu_right_hand_side, 0.0, state_.y(), state_.context());
     require_success(ERKStepSetTable(memory_, table.get()));
     require_success(ERKStepSetUserData(memory_, &problem_));
