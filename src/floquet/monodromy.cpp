@@ -18,7 +18,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kUnit = 0x1p-53;
-constexpr double kLowestLocalTolerance = 1e-13;  // below, rounding grows faster than truncation falls
+constexpr double kLowestLocalTolerance = 1e-14;  // below, rounding grows faster than truncation falls
 constexpr double kHighestLocalTolerance = 1e-4;
 constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 
@@ -73,8 +73,9 @@ Propagators closed_form_propagators(const HillEquation& equation, const Periodic
   return result;
 }
 
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance) {
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order) {
   return {.local_tolerance = local_tolerance,
+          .highest_frequency = static_cast<double>(highest_order),
           .estimate_error = options.estimate_error,
           .max_seconds = options.max_seconds,
           .cancel = options.cancel};
@@ -167,7 +168,7 @@ Monodromy MonodromyEngine::compute(const HillEquation& equation, const Monodromy
       const double length = segment.to - segment.from;
       append(result, propagator.propagate(hill_right_hand_side(piece, segment.from, kappa), 0.0, length,
                                           std::sqrt(piece.bound()) * length, relative_error,
-                                          propagator_options(options, local_tolerance)));
+                                          propagator_options(options, local_tolerance, w.highest_order())));
     }
     return result;
   };
@@ -237,6 +238,7 @@ Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const Mon
   const double radians_per_phase = std::sqrt(bound) + damping_bound;
   int highest = 1;
   for (const auto& h : system.stiffness.harmonics) highest = std::max(highest, h.order);
+  for (const auto& h : system.damping.harmonics) highest = std::max(highest, h.order);
   const double coefficient_error = (16.0 + 2.0 * pi * highest) * kUnit;
   const auto parts = static_cast<int>(std::clamp(std::ceil(2.0 * pi * radians_per_phase / 16.0), 1.0, 1e6));
 
@@ -255,7 +257,7 @@ Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const Mon
     for (int j = 0; j < parts; ++j) {
       const double from = 2.0 * pi * j / parts, to = 2.0 * pi * (j + 1) / parts;
       append(propagators, propagator.propagate(f, from, to, radians_per_phase * (to - from), coefficient_error,
-                                               propagator_options(options, local_tolerance)));
+                                               propagator_options(options, local_tolerance, highest)));
     }
     auto result = put_together(propagators.factors);
     take_over(result, propagators);

@@ -6,6 +6,7 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/hill_series.hpp"
 
 using namespace strutt;
 
@@ -127,4 +128,23 @@ TEST_CASE("Misuse is refused, trouble is an outcome", "[floquet][error]") {
   const auto cancelled = engine.compute(mathieu_delta_epsilon(1, 1), {.cancel = &cancel});
   CHECK(cancelled.outcome == Outcome::cancelled);
   CHECK(std::isinf(cancelled.error));
+}
+
+TEST_CASE("The bound holds where the coefficient turns faster than the solution", "[floquet][monodromy]") {
+  // A first step of the solution's size would pass over the coefficient, in the run for the error as well.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> size(-0.01, 0.01);
+  MonodromyEngine engine;
+  for (int k = 0; k < 1000; ++k) {
+    const auto w = PeriodicFunction::fourier(
+        size(random), {{1, size(random), 0.0}, {2, size(random), 0.0}, {3, size(random), size(random)}});
+    const auto monodromy = engine.compute(hill_equation(2.0 * std::numbers::pi, w), {.tolerance = 1e-6});
+    const auto truth = reference::hill_matrix(w);
+    const Eigen::Matrix2d m = plain(monodromy);  // kappa = 1
+    long double error = 0.0L;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) error = std::max(error, std::abs(m(i, j) - truth[i][j]));
+    }
+    CHECK(error <= allowance(monodromy));
+  }
 }

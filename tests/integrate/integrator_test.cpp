@@ -154,6 +154,33 @@ TEST_CASE("the trace of Mathieu's equation", "[integrate][accuracy]") {
         1200);  // twice that if the end of a step were not the start of the next
 }
 
+TEST_CASE("every component of a state of any size is integrated", "[integrate][accuracy]") {
+  const auto decay = [](double, StateView y, StateOut dydt) {
+    for (Eigen::Index i = 0; i < y.size(); ++i) dydt[i] = -(1.0 + 0.25 * static_cast<double>(i)) * y[i];
+  };
+  for (const Method& method : {Method{Backend::arkode_erk, 8}, Method{Backend::cvode_adams, 8}}) {
+    for (int size = 1; size <= 9; ++size) {
+      INFO(name(method) << ", " << size << " components");
+      VectorXd y = VectorXd::Ones(size);
+      integrate(decay, 0.0, 1.0, y, options_of(method, 1e-10));
+      for (int i = 0; i < size; ++i) CHECK(std::abs(y[i] - std::exp(-1.0 - 0.25 * i)) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("the first step is tried as given, in both directions", "[integrate][cost]") {
+  for (const double end : {0.5, -0.5}) {
+    INFO("to " << end);
+    IntegratorOptions options = options_of({Backend::arkode_erk, 8}, 1e-6);
+    VectorXd y = vector({1.0, 0.0});
+    CHECK(integrate(oscillator, 0.0, end, y, options).cost.steps > 1);
+    options.first_step = 0.5;
+    y = vector({1.0, 0.0});
+    CHECK(integrate(oscillator, 0.0, end, y, options).cost.steps == 1);
+    CHECK(std::abs(y[0] - std::cos(end)) < 1e-6);
+  }
+}
+
 TEST_CASE("costs are what was spent", "[integrate][cost]") {
   for (const Method& method : kMethods) {
     INFO(name(method));

@@ -219,6 +219,9 @@ TEST_CASE("strips out of order are a bug that is seen", "[io][chart_file]") {
   const auto d = description_of(4, 4, {Layer::growth});
   const auto writer = make_chart_writer(directory / name, d);
   CHECK_THROWS_AS(writer->write(strip_of(d, 1, 1)), std::logic_error);
+  auto padded = strip_of(d, 0, 3);
+  padded.values[0].push_back(0.0);
+  CHECK_THROWS_AS(writer->write(padded), std::logic_error);
   writer->write(strip_of(d, 0, 3));
   CHECK_THROWS_AS(writer->write(strip_of(d, 3, 2)), std::logic_error);
   CHECK_THROWS_AS(writer->commit(), std::logic_error);

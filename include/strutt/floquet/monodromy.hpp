@@ -61,7 +61,7 @@ class MonodromyEngine {
   MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
 
   /// Method::automatic: exact for a piecewise-constant coefficient, else arkode. The local tolerance starts at
-  /// max(tolerance/100, 1e-13) and is tightened while the error bound is above the tolerance.
+  /// max(tolerance/100, 1e-14) and is tightened while the error bound is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
   Monodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
   Monodromy compute(const LinearPeriodicSystem& system, const MonodromyOptions& options = {});
