@@ -168,13 +168,14 @@ ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, cons
   ChartSummary summary;
   summary.outcomes.assign(kOutcomeCount, 0);
   ChartStrip strip{.columns = nx, .values = std::vector<std::vector<double>>(layers)};
-  for (auto& layer : strip.values) layer.resize(plan.rows_per_strip * nx);
+  for (auto& layer : strip.values) layer.reserve(plan.rows_per_strip * nx);
   const std::size_t batch = kBatchCells * static_cast<std::size_t>(plan.threads);
   std::vector<CellRecord> records(batch);
 
   for (strip.first_row = 0; strip.first_row < ny; strip.first_row += strip.rows) {
     strip.rows = std::min(plan.rows_per_strip, ny - strip.first_row);
     const std::size_t cells = strip.rows * nx;
+    for (auto& layer : strip.values) layer.resize(cells);  // the last strip may be shorter
     for (std::size_t start = 0; start < cells; start += batch) {
       const std::size_t count = std::min(batch, cells - start);
       const bool complete = parallel_for(count, parallel, [&](std::size_t k, int slot) {

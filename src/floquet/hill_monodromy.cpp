@@ -127,10 +127,11 @@ Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Met
   // into rounding.
   const bool integrated = method == Method::arkode || method == Method::cvode;
   const auto segments = integrated ? subdivided(y.pieces, y.w) : y.pieces;
-  const double coefficient_error = evaluation_error(equation);
+  const double coefficient_error =
+      evaluation_error(equation) + (y.centre ? equation.coefficient.asymmetry(*y.centre) : 0.0);
   const auto propagators = [&](double local_tolerance) {
     if (method == Method::exact) return closed_form_propagators(equation, y.w, segments, y.kappa);
-    const auto wanted = propagator_options(options, local_tolerance);
+    const auto wanted = propagator_options(options, local_tolerance, y.w.highest_order());
     return method == Method::propagator
                ? splitting_propagators(pool.splittings, y.w, segments, y.kappa, coefficient_error, wanted)
                : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa, coefficient_error,

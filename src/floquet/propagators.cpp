@@ -6,7 +6,7 @@ namespace strutt {
 namespace {
 
 // Of a step of SUNDIALS. Below the lowest, rounding grows faster than truncation falls.
-constexpr double kLowestLocalTolerance = 1e-13;
+constexpr double kLowestLocalTolerance = 1e-14;
 constexpr double kHighestLocalTolerance = 1e-4;
 constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 
@@ -25,8 +25,9 @@ void Propagators::append(Propagation&& step) {
   factors.push_back(std::move(step.matrix));
 }
 
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance) {
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order) {
   return {.local_tolerance = local_tolerance,
+          .highest_frequency = static_cast<double>(highest_order),
           .estimate_error = options.estimate_error,
           .max_seconds = options.max_seconds,
           .cancel = options.cancel};

@@ -39,7 +39,8 @@ struct Propagators {
   void append(Propagation&& step);
 };
 
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance);
+/// `highest_order`: of the harmonics of the equation.
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order);
 
 /// The result of putting the factors together, with the truncation that the second runs, put together the
 /// same way, show.

@@ -46,6 +46,7 @@ Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& sys
   const double radians_per_phase = std::sqrt(bound) + damping_bound;
   int highest = 1;
   for (const auto& h : system.stiffness.harmonics) highest = std::max(highest, h.order);
+  for (const auto& h : system.damping.harmonics) highest = std::max(highest, h.order);
   const double coefficient_error = (16.0 + 2.0 * pi * highest) * kUnit;
   const auto parts = static_cast<int>(std::clamp(std::ceil(2.0 * pi * radians_per_phase / 16.0), 1.0, 1e6));
 
@@ -63,7 +64,7 @@ Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& sys
     for (int j = 0; j < parts; ++j) {
       const double from = 2.0 * pi * j / parts, to = 2.0 * pi * (j + 1) / parts;
       propagators.append(integrator.propagate(f, from, to, radians_per_phase * (to - from), coefficient_error,
-                                              propagator_options(options, local_tolerance)));
+                                              propagator_options(options, local_tolerance, highest)));
     }
     Monodromy attempt = combined(propagators, put_together);
     attempt.error = scaled_error(attempt.matrix);

@@ -60,6 +60,7 @@ void IntegratorOptions::validate() const {
   require(absolute_tolerance >= 0.0 && std::isfinite(absolute_tolerance), "absolute_tolerance",
           absolute_tolerance, "not negative, finite");
   require(max_step > 0.0, "max_step", max_step, "positive");
+  require(first_step >= 0.0 && std::isfinite(first_step), "first_step", first_step, "not negative, finite");
   require(max_steps >= 1, "max_steps", static_cast<double>(max_steps), "at least 1");
   require(max_seconds >= 0.0, "max_seconds", max_seconds, "not negative");
 }

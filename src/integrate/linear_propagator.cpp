@@ -14,6 +14,11 @@ constexpr double kUnit = 0x1p-53;
 constexpr double kCheckTolerance = 0.03;
 constexpr double kLowestCheckTolerance = 5e-15;
 
+// The first step of order 8 is this times the 8th root of the tolerance, in radians of whichever turns faster, solution
+// or coefficients. A step of ARKODE's own choice is so short that two or three more are spent on growing: up to half of
+// the work of a short run. Too long a first step may alias the coefficients in both runs, unseen by the error estimate.
+constexpr double kFirstStepRadians = 5.0;
+
 // Rounding, in units of 2^-53 of the largest entry: once, a step (state), a step (time, which all later phase feels).
 constexpr double kRoundingOnce = 4.0;
 constexpr double kRoundingPerStep = 0.75;
@@ -23,10 +28,14 @@ Integrator make_integrator(int states, Backend backend) {
   return {states * states, IntegratorOptions{.backend = backend, .order = 8}};
 }
 
-IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wanted, double tolerance, double max_step) {
+IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wanted, double tolerance, double max_step,
+                       double radians_per_time) {
   options.relative_tolerance = tolerance;
   options.absolute_tolerance = tolerance;
   options.max_step = max_step;
+  if (options.backend == Backend::arkode_erk) {
+    options.first_step = std::min(max_step, kFirstStepRadians * std::pow(tolerance, 0.125) / radians_per_time);
+  }
   options.max_steps = wanted.max_steps;
   options.max_seconds = wanted.max_seconds;
   options.cancel = wanted.cancel;
@@ -50,9 +59,10 @@ LinearPropagator::LinearPropagator(int states, Backend backend)
 Propagation LinearPropagator::propagate(const RightHandSide& f, double from, double to, double radians,
                                         double coefficient_error, const PropagatorOptions& options) {
   const double length = std::abs(to - from);
+  const double radians_per_time = std::max(radians / length, options.highest_frequency);
   const Eigen::VectorXd start = Eigen::MatrixXd::Identity(states_, states_).reshaped();
   // The limits of the step make the check run the better one even where the tolerance asks for one step only.
-  main_.set_options(with(main_.options(), options, options.local_tolerance, length / 2.0));
+  main_.set_options(with(main_.options(), options, options.local_tolerance, length / 2.0, radians_per_time));
   Eigen::VectorXd state = start;
   const auto run = main_.advance(f, from, to, state);
 
@@ -69,7 +79,7 @@ Propagation LinearPropagator::propagate(const RightHandSide& f, double from, dou
     const bool same_backend = backend_ == Backend::arkode_erk;
     const double tolerance =
         same_backend ? std::max(kCheckTolerance * options.local_tolerance, kLowestCheckTolerance) : options.local_tolerance;
-    check_.set_options(with(check_.options(), options, tolerance, length / 4.0));
+    check_.set_options(with(check_.options(), options, tolerance, length / 4.0, radians_per_time));
     Eigen::VectorXd other = start;
     const auto check = check_.advance(f, from, to, other);
     result.estimate_cost = check.cost;

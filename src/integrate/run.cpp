@@ -53,7 +53,8 @@ bool Run::cross(const RightHandSide& f, double t1) {
     return going();
   }
   forwards_ = t1 > result_.t;
-  stepper_.start(f, result_.t, state_, next_stop(t1));
+  const double first_step = forwards_ ? options_.first_step : -options_.first_step;
+  stepper_.start(f, result_.t, state_, next_stop(t1), first_step);
   while (going() && result_.t != t1) step(f, t1);
   if (!terminated_) state_ = stepper_.state();
   result_.cost += stepper_.cost();

@@ -40,13 +40,9 @@ Stepper::Stepper(int dimension, const IntegratorOptions& options)
 
 Stepper::Stepper(int dimension, const IntegratorOptions& options, Context context)
     : context_(std::move(context)),
-      y_(STRUTT_CHECKED(N_VNew_Serial(dimension, context_.get()))),
+      y_(make_state_vector(dimension, context_.get())),  // all vectors SUNDIALS makes are clones of this one
       api_(options.backend == Backend::arkode_erk ? &kArkode : &kCvode),
       previous_(Eigen::VectorXd::Zero(dimension)) {
-  // All vectors SUNDIALS makes are clones of this one; linear combinations of stages in one sweep halve its
-  // overhead.
-  STRUTT_CHECKED(N_VEnableFusedOps_Serial(y_.get(), SUNTRUE));
-  N_VConst(0.0, y_.get());
   callbacks_.dimension = dimension;
   if (options.backend == Backend::arkode_erk)
     create_arkode(options);

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "integrate/sundials_api.hpp"
+#include "integrate/sundials_vector.hpp"
 #include "strutt/integrate/integrator.hpp"
 
 namespace strutt::detail {
@@ -62,8 +62,8 @@ class Stepper {
   Outcome failure(int flag);
 
   Context context_;
-  std::unique_ptr<_generic_N_Vector, Destroy<&N_VDestroy>> y_;
-  std::unique_ptr<_generic_N_Vector, Destroy<&N_VDestroy>> interpolated_;
+  StateVector y_;
+  StateVector interpolated_;
   std::unique_ptr<_generic_SUNMatrix, Destroy<&SUNMatDestroy>> jacobian_;
   std::unique_ptr<_generic_SUNLinearSolver, Destroy<&SUNLinSolFree>> linear_solver_;
   std::unique_ptr<_generic_SUNNonlinearSolver, Destroy<&SUNNonlinSolFree>> nonlinear_solver_;

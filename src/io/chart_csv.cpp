@@ -25,9 +25,12 @@ class CsvWriter : public ChartWriter {
   }
 
  private:
+  /// An empty unit stands for a column of words.
+  static std::string number_unit(const ParameterInfo& info) { return info.unit.empty() ? "1" : info.unit; }
+
   static std::string head(const ChartDescription& description) {
     const ChartRequest& request = description.request;
-    std::string units = "# units: " + description.x.unit + "," + description.y.unit;
+    std::string units = "# units: " + number_unit(description.x) + "," + number_unit(description.y);
     std::string names = request.x.parameter + "," + request.y.parameter;
     for (const Layer layer : request.layers) {
       units += "," + std::string(unit_of(layer));

@@ -52,6 +52,10 @@ void StripOrder::take(const ChartStrip& strip) {
       strip.rows > rows_ - next_row_) {
     throw std::logic_error("a strip of a chart is out of order");
   }
+  for (const auto& values : strip.values) {
+    if (values.size() == strip.rows * columns_) continue;
+    throw std::logic_error("a strip of a chart has a wrong number of values");
+  }
   next_row_ += strip.rows;
 }
 

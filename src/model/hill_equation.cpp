@@ -13,7 +13,7 @@ double HillEquation::period() const { return 2.0 * std::numbers::pi / angular_fr
 double HillEquation::delta() const { return coefficient.mean(); }
 
 double HillEquation::epsilon() const {
-  if (coefficient.is_piecewise_constant()) return coefficient.bound() - std::abs(coefficient.mean());
+  if (coefficient.harmonics().empty()) return coefficient.deviation();  // a constant or a square wave
   const auto& first = coefficient.harmonics().front();
   return first.order == 1 ? std::hypot(first.cosine, first.sine) : 0.0;
 }

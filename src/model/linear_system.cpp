@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "model/harmonic_orders.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -80,6 +81,11 @@ void LinearPeriodicSystem::validate() const {
   if (stiffness.mean.size() == 0) throw InvalidInput("linear.stiffness", "nothing", "given");
   check_shape(stiffness, mass.rows(), "linear.stiffness");
   check_shape(damping, mass.rows(), "linear.damping");
+  require_orders("order in linear.stiffness.harmonics", stiffness.harmonics);
+  require_orders("order in linear.damping.harmonics", damping.harmonics);
+  if (damping.mean.size() == 0 && !damping.harmonics.empty()) {
+    throw InvalidInput("linear.damping.mean", "nothing", "given with harmonics");
+  }
 }
 
 }  // namespace strutt

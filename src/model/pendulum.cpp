@@ -66,16 +66,17 @@ double PhysicalPendulum::support_force(double angle, double rate, double angular
 }
 
 std::array<std::complex<double>, 2> PhysicalPendulum::characteristic_roots(Equilibrium about) const {
-  const double half = damping / 2.0;
-  const double stiffness = about == Equilibrium::hanging ? alpha_squared() : -alpha_squared();
-  const double radicand = half * half - stiffness;
-  if (radicand < 0.0) {
-    const double frequency = std::sqrt(-radicand);
-    return {std::complex{-half, frequency}, std::complex{-half, -frequency}};
+  // c^2/4 -+ alpha^2 as a product of roots and as a hypotenuse: nothing overflows at huge damping
+  const double half = damping / 2.0, frequency = alpha();
+  const bool hanging = about == Equilibrium::hanging;
+  if (hanging && half < frequency) {
+    const double damped = std::sqrt(frequency - half) * std::sqrt(frequency + half);
+    return {std::complex{-half, damped}, std::complex{-half, -damped}};
   }
-  const double large = -(half + std::sqrt(radicand));  // no cancellation: both terms have one sign
-  const double small = large == 0.0 ? 0.0 : stiffness / large;  // product of the roots = stiffness
-  return {std::complex{small, 0.0}, std::complex{large, 0.0}};
+  const double root = hanging ? std::sqrt(half - frequency) * std::sqrt(half + frequency) : std::hypot(half, frequency);
+  const double large = -(half + root);  // no cancellation: both terms have one sign
+  const double stiffness = hanging ? alpha_squared() : -alpha_squared();
+  return {std::complex{stiffness / large, 0.0}, std::complex{large, 0.0}};  // product of the roots = stiffness
 }
 
 }  // namespace strutt

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
+#include "model/harmonic_orders.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -33,11 +33,7 @@ constexpr double square_bound(int n) { return n == 0 ? 1.0 : n == 1 ? pi / 2.0 :
 PeriodicFunction PeriodicFunction::constant(double mean) { return fourier(mean, {}); }
 
 PeriodicFunction PeriodicFunction::fourier(double mean, std::vector<Harmonic> harmonics) {
-  std::set<int> orders;
-  for (const auto& h : harmonics) {
-    require(h.order >= 1, "order", h.order, "an integer >= 1");
-    require(orders.insert(h.order).second, "order", h.order, "given only once");
-  }
+  require_orders("order", harmonics);
   std::erase_if(harmonics, [](const Harmonic& h) { return h.cosine == 0.0 && h.sine == 0.0; });
   std::sort(harmonics.begin(), harmonics.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
   PeriodicFunction result;
@@ -48,6 +44,7 @@ PeriodicFunction PeriodicFunction::fourier(double mean, std::vector<Harmonic> ha
 
 PeriodicFunction PeriodicFunction::square(double mean, double amplitude, double shift, int antiderivative) {
   require(antiderivative >= 0 && antiderivative <= 2, "antiderivative", antiderivative, "0, 1 or 2");
+  require(std::isfinite(shift), "shift", shift, "finite");
   PeriodicFunction result;
   result.mean_ = mean;
   if (amplitude == 0.0) return result;
@@ -111,13 +108,13 @@ double amplitude_sum(std::span<const Harmonic> harmonics) {
 
 }  // namespace
 
-double PeriodicFunction::bound() const {
-  const double wave =
-      form_ == Form::square ? std::abs(amplitude_) * square_bound(antiderivative_) : amplitude_sum(harmonics_);
-  return std::abs(mean_) + wave;
+double PeriodicFunction::deviation() const {
+  return form_ == Form::square ? std::abs(amplitude_) * square_bound(antiderivative_) : amplitude_sum(harmonics_);
 }
 
-double PeriodicFunction::lower_bound() const { return mean_ - (bound() - std::abs(mean_)); }
+double PeriodicFunction::bound() const { return std::abs(mean_) + deviation(); }
+
+double PeriodicFunction::lower_bound() const { return mean_ - deviation(); }
 
 bool PeriodicFunction::is_constant() const { return form_ == Form::fourier && harmonics_.empty(); }
 
@@ -164,6 +161,14 @@ std::optional<double> PeriodicFunction::even_centre() const {
     if (even) return centre;
   }
   return std::nullopt;
+}
+
+double PeriodicFunction::asymmetry(double theta0) const {
+  double largest = 0.0;
+  for (const auto& h : harmonics_) {
+    largest = std::max(largest, std::abs(shifted_harmonic(h, theta0).sine) / std::hypot(h.cosine, h.sine));
+  }
+  return largest;
 }
 
 PeriodicFunction PeriodicFunction::shifted(double theta0) const {

@@ -1,9 +1,9 @@
 #include "strutt/model/scene.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "model/harmonic_orders.hpp"
 #include "model/parameter_table.hpp"
 
 namespace strutt {
@@ -43,6 +43,31 @@ void validate_pendulum(const PendulumTable& p) {
   }
 }
 
+void validate_support(const SupportTable& s) {
+  positive("support.frequency", s.frequency);
+  require_orders("order in support.harmonics", s.harmonics);
+  if (s.waveform != Waveform::samples) return;
+  const auto count = static_cast<double>(s.samples.size());
+  require(count >= 1, "number of values in support.samples", count, "at least 1");
+  for (const double r : s.samples) require(std::isfinite(r), "support.samples", r, "finite in every value");
+}
+
+void validate_moment(const MomentTable& m, const std::optional<SupportTable>& support) {
+  require_orders("order in moment.harmonics", m.harmonics);
+  if (m.frequency) {
+    positive("moment.frequency", *m.frequency);
+    require(!support || support->frequency == *m.frequency, "moment.frequency", *m.frequency, "that of the support");
+  } else if (!support && !m.harmonics.empty()) {
+    throw InvalidInput("moment.frequency is required: there are harmonics and no [support]");
+  }
+}
+
+void validate_hill(const HillTable& h) {
+  positive("hill.period", h.period);
+  not_negative("hill.damping", h.damping);
+  require_orders("order in hill.harmonics", h.harmonics);
+}
+
 }  // namespace
 
 double& parameter(Scene& scene, std::string_view path) {
@@ -80,21 +105,10 @@ void validate(const Scene& scene) {
     throw InvalidInput("[support] and [moment] go with [pendulum] only");
   }
   if (scene.pendulum) validate_pendulum(*scene.pendulum);
-  if (scene.support) positive("support.frequency", scene.support->frequency);
-  if (scene.moment && scene.moment->frequency) {
-    const double frequency = *scene.moment->frequency;
-    positive("moment.frequency", frequency);
-    require(!scene.support || scene.support->frequency == frequency, "moment.frequency", frequency,
-            "that of the support");
-  }
-  if (scene.moment && !scene.moment->frequency && !scene.support && !scene.moment->harmonics.empty()) {
-    throw InvalidInput("moment.frequency is required: there are harmonics and no [support]");
-  }
+  if (scene.support) validate_support(*scene.support);
+  if (scene.moment) validate_moment(*scene.moment, scene.support);
   if (scene.mathieu) not_negative("mathieu.damping", scene.mathieu->damping);
-  if (scene.hill) {
-    positive("hill.period", scene.hill->period);
-    not_negative("hill.damping", scene.hill->damping);
-  }
+  if (scene.hill) validate_hill(*scene.hill);
   if (scene.linear) scene.linear->validate();
 }
 

@@ -240,6 +240,8 @@ TEST_CASE("options are checked", "[integrate][input]") {
   refused([](auto& o) { o.absolute_tolerance = -1.0; });
   refused([](auto& o) { o.max_step = 0.0; });
   refused([](auto& o) { o.max_step = kNan; });
+  refused([](auto& o) { o.first_step = -0.1; });
+  refused([](auto& o) { o.first_step = kInfinity; });
   refused([](auto& o) { o.max_steps = 0; });
   refused([](auto& o) { o.max_seconds = -1.0; });
   CHECK_THROWS_AS(Integrator(0, {}), InvalidInput);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -96,6 +97,42 @@ TEST_CASE("the number of steps shows the order of a method", "[integrate][accura
   }
 }
 
+TEST_CASE("halving the step cuts the error by two to the order, at a fixed price for each step",
+          "[integrate][accuracy][cost]") {
+  // Kepler's ellipse of eccentricity 0.3, back at its start after 2 pi: nonlinear, so that every order condition
+  // counts. The tolerance accepts every step, so that max_step decides.
+  const auto f = [](double, StateView y, StateOut dydt) {
+    const double cube = std::pow(y[0] * y[0] + y[1] * y[1], 1.5);
+    dydt[0] = y[2], dydt[1] = y[3], dydt[2] = -y[0] / cube, dydt[3] = -y[1] / cube;
+  };
+  // It starts far out, where the first steps, which are shorter, matter least.
+  const VectorXd start = vector({1.3, 0.0, 0.0, std::sqrt(0.7 / 1.3)});
+  const auto run = [&](const Method& method, int steps) {
+    IntegratorOptions options = options_of(method, 1e6);
+    options.max_step = 2.0 * M_PI / steps;
+    VectorXd y = start;
+    const auto result = integrate(f, 0.0, 2.0 * M_PI, y, options);
+    CHECK(result.outcome == Outcome::converged);
+    CHECK(result.cost.steps >= steps);
+    CHECK(result.cost.steps <= steps + 6);
+    CHECK(result.cost.rejections == 0);
+    return std::pair{(y - start).norm(), result.cost};
+  };
+  const std::map<int, long> stages{{2, 2}, {3, 3}, {4, 5}, {5, 6}, {6, 8}, {8, 13}};  // new ones in each step
+  for (const Method& method : kMethods) {
+    if (method.backend != Backend::arkode_erk) continue;
+    INFO(name(method));
+    const int steps = method.order <= 3 ? 2000 : method.order <= 5 ? 400 : method.order == 6 ? 150 : 36;
+    const auto [coarse, coarse_cost] = run(method, steps);
+    const auto [fine, fine_cost] = run(method, 2 * steps);
+    CHECK(std::log2(coarse / fine) == Approx(method.order).margin(0.4));  // terms of the next order are still seen
+    // three more: the slope at the start and two to guess the first step
+    for (const auto& cost : {coarse_cost, fine_cost}) {
+      CHECK(cost.right_hand_sides == stages.at(method.order) * cost.steps + 3);
+    }
+  }
+}
+
 TEST_CASE("an integral without feedback is controlled, too", "[integrate][accuracy]") {
   // The error estimate of Fehlberg's pair 7(8) is zero here.
   const auto f = [](double t, StateView, StateOut dydt) { dydt[0] = std::pow(std::cos(5.0 * t), 2); };
@@ -115,6 +152,33 @@ TEST_CASE("the trace of Mathieu's equation", "[integrate][accuracy]") {
   CHECK(std::abs(y[0] + y[3] - kTrace) < 5e-13);
   CHECK(result.cost.right_hand_sides <
         1200);  // twice that if the end of a step were not the start of the next
+}
+
+TEST_CASE("every component of a state of any size is integrated", "[integrate][accuracy]") {
+  const auto decay = [](double, StateView y, StateOut dydt) {
+    for (Eigen::Index i = 0; i < y.size(); ++i) dydt[i] = -(1.0 + 0.25 * static_cast<double>(i)) * y[i];
+  };
+  for (const Method& method : {Method{Backend::arkode_erk, 8}, Method{Backend::cvode_adams, 8}}) {
+    for (int size = 1; size <= 9; ++size) {
+      INFO(name(method) << ", " << size << " components");
+      VectorXd y = VectorXd::Ones(size);
+      integrate(decay, 0.0, 1.0, y, options_of(method, 1e-10));
+      for (int i = 0; i < size; ++i) CHECK(std::abs(y[i] - std::exp(-1.0 - 0.25 * i)) < 1e-8);
+    }
+  }
+}
+
+TEST_CASE("the first step is tried as given, in both directions", "[integrate][cost]") {
+  for (const double end : {0.5, -0.5}) {
+    INFO("to " << end);
+    IntegratorOptions options = options_of({Backend::arkode_erk, 8}, 1e-6);
+    VectorXd y = vector({1.0, 0.0});
+    CHECK(integrate(oscillator, 0.0, end, y, options).cost.steps > 1);
+    options.first_step = 0.5;
+    y = vector({1.0, 0.0});
+    CHECK(integrate(oscillator, 0.0, end, y, options).cost.steps == 1);
+    CHECK(std::abs(y[0] - std::cos(end)) < 1e-6);
+  }
 }
 
 TEST_CASE("costs are what was spent", "[integrate][cost]") {

@@ -137,7 +137,7 @@ TEST_CASE("a chart as CSV", "[io][chart_file]") {
   write_chart(directory / "c.csv", d, 1);
   CHECK(content_of(directory / "c.csv") ==
         "# program: strutt\n# version: 9\n# date: 2001-09-09T01:46:40Z\n# command: strutt chart\n"
-        "# units: rad/s,,,1,\n"
+        "# units: rad/s,1,,1,\n"
         "support.frequency,mathieu.delta,verdict,growth,outcome\n"
         "1,3,stable,nan,converged\n1.1,3,unstable,0.1,tolerance_not_reached\n"
         "1,-1,unstable,31.670175244226233,step_limit\n1.1,-1,boundary,31.827660925679098,time_limit\n");
@@ -219,9 +219,21 @@ TEST_CASE("strips out of order are a bug that is seen", "[io][chart_file]") {
   const auto d = description_of(4, 4, {Layer::growth});
   const auto writer = make_chart_writer(directory / name, d);
   CHECK_THROWS_AS(writer->write(strip_of(d, 1, 1)), std::logic_error);
+  auto padded = strip_of(d, 0, 3);
+  padded.values[0].push_back(0.0);
+  CHECK_THROWS_AS(writer->write(padded), std::logic_error);
   writer->write(strip_of(d, 0, 3));
   CHECK_THROWS_AS(writer->write(strip_of(d, 3, 2)), std::logic_error);
   CHECK_THROWS_AS(writer->commit(), std::logic_error);
+}
+
+TEST_CASE("a strip with values beyond its rows is a bug that is seen", "[io][chart_file]") {
+  const ScratchDirectory directory;
+  const std::string name = GENERATE("c.csv", "c.npy", "c.npz", "c.h5");
+  const auto writer = make_chart_writer(directory / name, description_of(4, 4, {Layer::growth}));
+  auto strip = strip_of(description_of(4, 4, {Layer::growth}), 0, 4);
+  strip.rows = 3;
+  CHECK_THROWS_AS(writer->write(strip), std::logic_error);
 }
 
 TEST_CASE("a place that cannot be written is found before anything is computed", "[io][chart_file][F9]") {

@@ -31,7 +31,7 @@ std::vector<Row> read(const std::string& table);  ///< "mathieu" -> tests/refere
 /// The model of a row of mathieu, hill, square, pendulum or linear4.
 strutt::LinearModel model(const std::string& table, const Row& row);
 
-/// CLI.md's scaled error of a result against its row, in more than double precision.
+/// The scaled error (docs/conventions.md) of a result against its row, in more than double precision.
 double true_error(const strutt::LinearModel& model, const strutt::Stability& result, const Row& row);
 
 }  // namespace reference

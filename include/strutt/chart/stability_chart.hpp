@@ -52,8 +52,8 @@ struct ChartPlan {
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request);
 
 /// Consecutive rows of a chart: layer l, row j (from 0 in this strip), column i at
-/// values[l][j * nx + i]; categorical layers as the enumerator's value. Failed cells: NaN in real layers,
-/// unresolved in `verdict`.
+/// values[l][j * nx + i], exactly rows * columns values each; categorical layers as the enumerator's value.
+/// Failed cells: NaN in real layers, unresolved in `verdict`.
 struct ChartStrip {
   std::size_t first_row = 0;
   std::size_t rows = 0;

@@ -41,7 +41,7 @@ struct Monodromy {
   double kappa = 1.0;        ///< in the scene's unit of time
 
   /// Upper bound of the error of trace M and of every entry of `matrix`, divided by max(1, largest |entry|), the
-  /// rounding of results to double included (CLI.md, column `error`). +inf when there is no result.
+  /// rounding of results to double included (docs/conventions.md). +inf when there is no result.
   double error = std::numeric_limits<double>::infinity();
   /// Largest |det - 1| of the integrated propagators of y, each divided by its squared norm (numerical extremes N3).
   double determinant_defect = 0.0;
@@ -62,7 +62,7 @@ class MonodromyEngine {
 
   /// Method::automatic: exact for a piecewise-constant coefficient, for other Hill equations the propagator (a splitting
   /// with fixed steps, checked by a run with half of them) with arkode behind it where the tolerance is not reached; else
-  /// arkode. The local tolerance of SUNDIALS starts at max(tolerance/100, 1e-13). Both are tightened while the error bound
+  /// arkode. The local tolerance of SUNDIALS starts at max(tolerance/100, 1e-14). Both are tightened while the error bound
   /// is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
   Monodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});

@@ -10,7 +10,7 @@
 
 namespace strutt {
 
-/// Everything Strutt says about one linear periodic system; the columns of `strutt stability` (CLI.md).
+/// Everything Strutt says about one linear periodic system; the columns of `strutt stability` (docs/files.md).
 struct Stability {
   Verdict verdict = Verdict::unresolved;
   double margin = std::numeric_limits<double>::quiet_NaN();

@@ -40,7 +40,7 @@ struct DiscriminantGap {
 DiscriminantGap discriminant_gap(const Monodromy& monodromy);
 
 /// margin = 1 - |D|/(2 cosh h) of a 2 x 2 monodromy with det N = 1 and h = cT/2 >= 0:
-/// (2 - |D| + 4 sinh^2(h/2))/(2 cosh h), in logarithms where these overflow. Bounds: DESIGN of discriminant_gap,
+/// (2 - |D| + 4 sinh^2(h/2))/(2 cosh h), in logarithms where these overflow. Bounds: those of discriminant_gap,
 /// the rounding of h included.
 Margin hill_margin(const DiscriminantGap& discriminant, double half_damping);
 

@@ -27,6 +27,7 @@ struct IntegratorOptions {
   double relative_tolerance = 1e-9;  ///< > 0; below 1e-15 the run ends in Outcome::tolerance_not_reached at once
   double absolute_tolerance = 1e-9;  ///< >= 0, one value for all components: scale the state
   double max_step = std::numeric_limits<double>::infinity();  ///< > 0, bound of |step|
+  double first_step = 0.0;           ///< |first step| to try, >= 0, finite; 0: the stepper's own, cautious choice
   long max_steps = 10'000'000;       ///< >= 1, budget of accepted steps per call
   double max_seconds = std::numeric_limits<double>::infinity();  ///< >= 0, budget of (monotonic) time per call
   const std::atomic<bool>* cancel = nullptr;  ///< looked at on every step

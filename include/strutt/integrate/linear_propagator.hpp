@@ -11,7 +11,8 @@ namespace strutt {
 
 /// How one propagator is integrated.
 struct PropagatorOptions {
-  double local_tolerance = 1e-11;  ///< of each step, relative and absolute, in [1e-13, 1e-4]
+  double local_tolerance = 1e-11;  ///< of each step, relative and absolute, in [1e-14, 1e-4]
+  double highest_frequency = 0.0;  ///< of the harmonics of A, in radians per unit of t: bounds the first step
   bool estimate_error = true;      ///< make the second run
   long max_steps = 10'000'000;
   double max_seconds = std::numeric_limits<double>::infinity();

@@ -18,7 +18,7 @@ struct HillEquation {
 
   double period() const;             ///< T = 2 pi/Omega
   double delta() const;              ///< mean of W
-  double epsilon() const;            ///< amplitude of the first harmonic (or of the square wave) of W, >= 0
+  double epsilon() const;            ///< amplitude of the first harmonic of W (square form: largest |W - delta|), >= 0
   double canonical_damping() const;  ///< c/Omega
   /// kappa/Omega with kappa = max(2 pi/T, sqrt|mean of w|), the frequency by which x' is made comparable with x.
   double canonical_kappa() const;

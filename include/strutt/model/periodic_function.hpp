@@ -18,7 +18,7 @@ struct Harmonic {
 ///   square    f = mean + amplitude * s_n(theta - shift), s_0 = sign(cos), s_n the n-th antiderivative of s_0 with
 ///             mean zero (n = 1 triangle, n = 2 parabolic arcs): Meissner's wave and the motion that produces it.
 /// Uniform samples are turned into the Fourier form (trigonometric interpolation), exact at the samples.
-/// Values carry a relative rounding error of a few 2^-53 of bound().
+/// Values carry a rounding error of at most (3 n + 4 + k |theta|) 2^-53 bound(), with n harmonics up to order k.
 class PeriodicFunction {
  public:
   PeriodicFunction() = default;  ///< the zero function
@@ -29,6 +29,7 @@ class PeriodicFunction {
   static PeriodicFunction fourier(double mean, std::vector<Harmonic> harmonics);
 
   /// mean + amplitude * s_n(theta - shift), n = antiderivative in {0, 1, 2}. Jumps of s_0 at shift +- pi/2.
+  /// Throws InvalidInput.
   static PeriodicFunction square(double mean, double amplitude, double shift, int antiderivative = 0);
 
   /// Trigonometric interpolation of f(2 pi j / N), j = 0..N-1, N >= 1. For even N the highest term is the cosine.
@@ -38,6 +39,7 @@ class PeriodicFunction {
   PeriodicFunction derivative() const;  ///< d/dtheta; of s_0 it throws InvalidInput (a sum of impulses)
 
   double mean() const { return mean_; }
+  double deviation() const;         ///< an upper bound of |f - mean|, attained by a single wave
   double bound() const;             ///< an upper bound of |f|
   double lower_bound() const;       ///< a lower bound of f
   bool is_constant() const;         ///< no term besides the mean
@@ -48,6 +50,9 @@ class PeriodicFunction {
   /// theta0 in [0, pi] with f(theta0 + tau) = f(theta0 - tau) up to rounding of the coefficients, if there is one.
   /// (theta0 + pi is then another such point.)
   std::optional<double> even_centre() const;
+
+  /// The largest sine part of a harmonic seen from theta0, relative to that harmonic: what centred() drops. 0 for squares.
+  double asymmetry(double theta0) const;
 
   PeriodicFunction shifted(double theta0) const;  ///< tau -> f(theta0 + tau)
   /// As shifted(theta0) for an even centre theta0, with the sine terms dropped (they are rounding).

@@ -38,14 +38,14 @@ struct SupportTable {
   double amplitude = 0.0;  // m
   double frequency = 0.0;  // rad/s, required
   double phase = 0.0;      // rad
-  std::vector<Harmonic> harmonics;
-  std::vector<double> samples;  // m
+  std::vector<Harmonic> harmonics = {};
+  std::vector<double> samples = {};  // m
 };
 
 /// [moment]: M(t), N m.
 struct MomentTable {
   double constant = 0.0;
-  std::vector<Harmonic> harmonics;
+  std::vector<Harmonic> harmonics = {};
   std::optional<double> frequency;  // rad/s; that of the support unless given
 };
 
@@ -63,7 +63,7 @@ struct HillTable {
   double period = 0.0;                      // required
   double mean = 0.0;
   double amplitude = 0.0;  // square only: w = mean + amplitude sign(cos(2 pi t/period))
-  std::vector<Harmonic> harmonics;
+  std::vector<Harmonic> harmonics = {};
   double damping = 0.0;
 };
 
@@ -85,7 +85,7 @@ struct ParameterInfo {
   std::string label;  ///< for axes, e.g. "support frequency"
 };
 
-/// The numeric parameter that `path` names in this scene (CLI.md: `support.frequency`, `mathieu.delta`,
+/// The numeric parameter that `path` names in this scene (docs/scene.md: `support.frequency`, `mathieu.delta`,
 /// `hill.harmonics.1.cos`, `linear.stiffness.harmonics.1.cos.0.1`), for reading and writing in place.
 /// Parameters of absent tables, of an unused shape or waveform, and of orders not in the list do not exist:
 /// throws InvalidInput naming the path and the nearest one that does.
