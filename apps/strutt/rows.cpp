@@ -30,10 +30,11 @@ RowWriter::RowWriter(const std::filesystem::path& path, bool json, std::vector<C
   }
   std::string units, names;
   for (const auto& column : columns_) {
-    units += (units.empty() ? "" : ",") + column.unit;
-    names += (names.empty() ? "" : ",") + column.name;
+    units += column.unit + ",";
+    names += column.name + ",";
   }
-  file_.write(comment_lines(provenance) + "# units: " + units + "\n" + names + "\n");
+  units.back() = names.back() = '\n';
+  file_.write(comment_lines(provenance) + "# units: " + units + names);
 }
 
 void RowWriter::write(std::span<const Cell> row) {
@@ -72,8 +73,14 @@ void RowWriter::write_json(std::span<const Cell> row) {
   line_ += '}';
 }
 
+void RowWriter::prepare() {
+  if (json_ && !complete_) file_.write("\n]}\n");
+  complete_ = true;
+  file_.prepare();
+}
+
 void RowWriter::commit() {
-  if (json_) file_.write("\n]}\n");
+  prepare();
   file_.commit();
 }
 

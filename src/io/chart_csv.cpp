@@ -19,15 +19,20 @@ class CsvWriter : public ChartWriter {
     for (std::size_t j = 0; j < strip.rows; ++j) write_row(strip, j);
   }
 
-  void commit() override {
+  void prepare() override {
     order_.finish();
+    file_.prepare();
+  }
+
+  void commit() override {
+    prepare();
     file_.commit();
   }
 
  private:
   static std::string head(const ChartDescription& description) {
     const ChartRequest& request = description.request;
-    std::string units = "# units: " + description.x.unit + "," + description.y.unit;
+    std::string units = "# units: " + unit_of(description.x) + "," + unit_of(description.y);
     std::string names = request.x.parameter + "," + request.y.parameter;
     for (const Layer layer : request.layers) {
       units += "," + std::string(unit_of(layer));

@@ -137,7 +137,7 @@ TEST_CASE("a chart as CSV", "[io][chart_file]") {
   write_chart(directory / "c.csv", d, 1);
   CHECK(content_of(directory / "c.csv") ==
         "# program: strutt\n# version: 9\n# date: 2001-09-09T01:46:40Z\n# command: strutt chart\n"
-        "# units: rad/s,,,1,\n"
+        "# units: rad/s,1,,1,\n"
         "support.frequency,mathieu.delta,verdict,growth,outcome\n"
         "1,3,stable,nan,converged\n1.1,3,unstable,0.1,tolerance_not_reached\n"
         "1,-1,unstable,31.670175244226233,step_limit\n1.1,-1,boundary,31.827660925679098,time_limit\n");
@@ -339,6 +339,7 @@ TEST_CASE("h5py reads .h5 with labelled axes", "[io][chart_file][python]") {
          "assert list(f['verdict'].attrs['flag_values']) == [0, 1, 2, 3]\n"
          "assert text(f['verdict'].attrs['flag_meanings']) == 'stable unstable boundary unresolved'\n"
          "assert text(f['x'].attrs['parameter']) == 'support.frequency'\n"
+         "assert all(h5py.h5g.get_objinfo(f.id, n.encode()).mtime == 0 for n in f)\n"
          "assert text(f['x'].attrs['units']) == 'rad/s' and text(f['y'].attrs['units']) == '1'\n"
          "assert text(f.attrs['Conventions']) == 'CF-1.10'\n"
          "assert len(json.loads(text(f.attrs['provenance']))['scene']) == 100000\n"
