@@ -118,6 +118,18 @@ std::filesystem::path data_path(const CommonArguments& arguments) {
   return arguments.output && !arguments.output->empty() ? *arguments.output : "-";
 }
 
+std::filesystem::path row_path(const CommonArguments& arguments) {
+  const auto path = data_path(arguments);
+  const std::string ending = path.extension().string();
+  for (const std::string_view other : {".npy", ".npz", ".h5", ".hdf5", ".png", ".svg", ".pdf"}) {
+    if (ending == other)
+      throw UsageError("-o '" + path.string() + "': this command writes CSV, or JSON with --json");
+  }
+  if (arguments.json && ending == ".csv") throw UsageError("--json does not write CSV: -o '" + path.string() + "'");
+  if (!arguments.json && ending == ".json") throw UsageError("-o '" + path.string() + "' goes with --json");
+  return path;
+}
+
 Provenance provenance_of(const CommonArguments& arguments, const SceneFile& scene, Method method,
                          double tolerance) {
   Provenance provenance = make_provenance(arguments.command);
