@@ -1,5 +1,6 @@
 #include "strutt/chart/stability_chart.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -121,15 +122,17 @@ TEST_CASE("a layer alone is the same as among the others", "[chart][stability_ch
   }
 }
 
-TEST_CASE("layers that were not asked for cost nothing", "[chart][stability_chart]") {
-  // The winding number needs more of the solution than the verdict does.
+TEST_CASE("all layers of a cell come from one integration", "[chart][stability_chart]") {
   const auto cost = [](std::vector<Layer> layers) {
     return compute(mathieu(), request_of(5, 3, std::move(layers))).summary.right_hand_sides;
   };
   const long verdict = cost({Layer::verdict});
   CHECK(verdict > 0);
-  CHECK(cost({Layer::verdict, Layer::growth, Layer::margin, Layer::outcome}) == verdict);
-  CHECK(cost(kAll) >= verdict);
+  CHECK(cost(kAll) == verdict);
+  const auto bytes = [](std::vector<Layer> layers) {
+    return plan_chart(mathieu(), request_of(50, 30, std::move(layers))).result_bytes;
+  };
+  CHECK(bytes(kAll) - bytes({Layer::verdict}) == 8.0 * 5 * 1500);
 }
 
 TEST_CASE("a chart has the same bits for any number of threads", "[chart][stability_chart][threads]") {
@@ -196,6 +199,22 @@ TEST_CASE("cancelling ends a chart between strips and is reported", "[chart][sta
   CHECK_FALSE(strip_seen);
   CHECK(summary.cells == last);
   CHECK(summary.cells < 160'000);
+}
+
+TEST_CASE("progress rises to the number of cells", "[chart][stability_chart]") {
+  ChartRequest slow = request_of(40, 5, {Layer::growth});
+  slow.threads = 2;  // batches begin small
+  std::vector<std::size_t> seen;
+  compute_chart(
+      mathieu(), slow, [](const ChartStrip&) {},
+      [&](std::size_t done, std::size_t total) {
+        CHECK(total == 200);
+        seen.push_back(done);
+      });
+  REQUIRE(seen.size() > 1);
+  CHECK(std::is_sorted(seen.begin(), seen.end()));
+  CHECK(seen.front() < 200);
+  CHECK(seen.back() == 200);
 }
 
 TEST_CASE("an exception of the sink passes through", "[chart][stability_chart]") {
