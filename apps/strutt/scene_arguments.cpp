@@ -43,12 +43,28 @@ void apply_set(Scene& scene, const std::string& text) {
   });
 }
 
+/// Values that are each in their range can still make no equation together (a frequency of 1e-300 rad/s).
+void check_equation(const SceneFile& file) {
+  try {
+    (void)linear_model(file.scene);
+  } catch (const InvalidInput& error) {
+    throw FileError(file.file, 0, 0, error.what());
+  }
+}
+
 }  // namespace
 
 SceneFile load_scene(const CommonArguments& arguments) {
   SceneFile file = read_scene(arguments.scene);
+  if (arguments.set.empty()) {
+    check_equation(file);
+    return file;
+  }
   for (const auto& text : arguments.set) apply_set(file.scene, text);
-  if (!arguments.set.empty()) about_flag("--set", [&] { validate(file.scene); });
+  about_flag("--set", [&] {
+    validate(file.scene);
+    (void)linear_model(file.scene);
+  });
   return file;
 }
 

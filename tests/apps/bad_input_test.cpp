@@ -104,6 +104,8 @@ TEST_CASE("a scene that is wrong is refused with its place and the reason", "[ap
       {"[mathieu]\n# \xFF\n", {"scene.toml:2:3"}},
       {"[mathieu]\n\x1B[31mdelta = 1\n", {"scene.toml:2:1", "0x1B"}},
       {std::string(2'000'000, '#'), {"larger than 1 MiB"}},
+      {pendulum("length = 1\n", "frequency = 1e-300\n"), {"scene.toml: ", "finite"}},
+      {pendulum("length = 1e-300\n"), {"scene.toml: ", "inertia"}},
       {"mathieu = 3\n", {"scene.toml:1:", "mathieu must be a table"}},
       {"[hill]\nperiod = 1\nharmonics = [{ order = 0, cos = 1 }]\n", {"scene.toml:3:", "order", "from 1 to"}},
       {"[hill]\nperiod = 1\nharmonics = [{ order = 1 }, { order = 1 }]\n",

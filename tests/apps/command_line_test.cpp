@@ -126,6 +126,7 @@ TEST_CASE("--set of what is not there or cannot be is refused", "[apps][command_
   room.refuses(chart({"--set", "mathieu.damping=-1"}), 2, {"mathieu.damping = -1", ">= 0"});
   room.refuses(chart({"--set", "mathieu.damping=nan"}), 2, {"'nan'"});
   room.refuses(chart({"--set", "mathieu.damping="}), 2, {"''"});
+  room.refuses({"stability", "p.toml", "--set", "support.frequency=1e-300"}, 2, {"--set", "finite"});
   room.refuses(motion({"--duration", "1", "--samples", "2", "--set", "pendulum.length=0 m"}), 2, {"> 0"});
   room.refuses(motion({"--duration", "1", "--samples", "2", "--set", "pendulum.length=3 s"}), 2,
                {"wrong dimension"});
