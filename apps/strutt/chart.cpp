@@ -107,6 +107,7 @@ class Sinks {
   Sinks(const ChartArguments& arguments, const ChartDescription& description, const ChartRequest& computed)
       : layers_(description.request.layers.size()), writer_(writer_for(arguments, description)) {
     if (!arguments.figure) return;
+    require_gnuplot(*arguments.figure);
     ChartDescription all = description;
     all.request = computed;
     figure_.emplace(*arguments.figure, all);
@@ -122,10 +123,12 @@ class Sinks {
     writer_->write(asked_);
   }
 
+  /// Data and figure appear together: drawing can fail or be interrupted, and so can writing the last bytes.
   void commit() {
-    writer_->commit();
+    writer_->prepare();
     throw_if_interrupted();
     if (figure_) figure_->commit();
+    writer_->commit();
   }
 
  private:

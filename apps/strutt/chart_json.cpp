@@ -4,8 +4,8 @@ namespace strutt::app {
 namespace {
 
 std::vector<Column> columns_of(const ChartDescription& description) {
-  std::vector<Column> columns{{description.request.x.parameter, description.x.unit},
-                              {description.request.y.parameter, description.y.unit}};
+  std::vector<Column> columns{{description.request.x.parameter, unit_of(description.x)},
+                              {description.request.y.parameter, unit_of(description.y)}};
   for (const Layer layer : description.request.layers) {
     columns.push_back({std::string(to_string(layer)), std::string(unit_of(layer))});
   }

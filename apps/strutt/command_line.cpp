@@ -18,7 +18,7 @@ Exit codes: 0 done; 1 done, but something asked for is unresolved or not converg
 constexpr const char* kChartExample = R"(
 Example:
   printf '[mathieu]\nepsilon = 0.5\n' > scene.toml
-  strutt chart scene.toml --x mathieu.delta=-1:5:120 --y mathieu.epsilon=0:6:80 -o chart.csv
+  strutt chart scene.toml --x mathieu.delta=-1:5:60 --y mathieu.epsilon=0:6:40 -o chart.csv
 )";
 
 constexpr const char* kStabilityExample = R"(

@@ -37,7 +37,7 @@ Axis time_axis(const MotionArguments& arguments) {
 }
 
 std::vector<double> times_of(const std::string& path) {
-  const NumericTable table = read_table(path, {.required = {"t"}, .optional = {}});
+  const NumericTable table = read_table(path, {.required = {"t"}, .optional = {}, .units = {{"t", "s"}}});
   std::vector<double> times;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     times.push_back(table.rows[i][0]);
@@ -76,8 +76,7 @@ void summarise(const MotionArguments& arguments, const Motion& motion, double se
   if (arguments.quiet) return;
   const auto failed = std::count_if(motion.points.begin(), motion.points.end(),
                                     [](const auto& point) { return point.outcome != Outcome::converged; });
-  print_note(fmt::format("{}: {} times, {} steps ({}) in {:.2g} s, {} not converged",
-                         data_path(arguments).string(), motion.points.size(), motion.cost.steps,
+  print_note(fmt::format("{} times, {} steps ({}) in {:.2g} s, {} not converged", motion.points.size(), motion.cost.steps,
                          to_string(motion.method), seconds, failed));
 }
 
@@ -107,7 +106,7 @@ ExitCode run(const MotionArguments& arguments) {
 
   install_signal_handlers();
   const Progress clock(false, "rows");
-  RowWriter writer(data_path(arguments), arguments.json,
+  RowWriter writer(row_path(arguments), arguments.json,
                    {{"t", "s"},
                     {"angle", "rad"},
                     {"velocity", "rad/s"},

@@ -73,8 +73,14 @@ void RowWriter::write_json(std::span<const Cell> row) {
   line_ += '}';
 }
 
+void RowWriter::prepare() {
+  if (json_ && !complete_) file_.write("\n]}\n");
+  complete_ = true;
+  file_.prepare();
+}
+
 void RowWriter::commit() {
-  if (json_) file_.write("\n]}\n");
+  prepare();
   file_.commit();
 }
 

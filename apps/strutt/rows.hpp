@@ -31,6 +31,7 @@ class RowWriter {
             const Provenance& provenance);
 
   void write(std::span<const Cell> row);
+  void prepare();  ///< after the last row: all that can fail but the renaming
   void commit();
 
  private:
@@ -40,6 +41,7 @@ class RowWriter {
   OutputFile file_;
   bool json_;
   bool first_ = true;
+  bool complete_ = false;
   std::vector<Column> columns_;
   std::string line_;
 };

@@ -43,12 +43,28 @@ void apply_set(Scene& scene, const std::string& text) {
   });
 }
 
+/// Values that are each in their range can still make no equation together (a frequency of 1e-300 rad/s).
+void check_equation(const SceneFile& file) {
+  try {
+    (void)linear_model(file.scene);
+  } catch (const InvalidInput& error) {
+    throw FileError(file.file, 0, 0, error.what());
+  }
+}
+
 }  // namespace
 
 SceneFile load_scene(const CommonArguments& arguments) {
   SceneFile file = read_scene(arguments.scene);
+  if (arguments.set.empty()) {
+    check_equation(file);
+    return file;
+  }
   for (const auto& text : arguments.set) apply_set(file.scene, text);
-  if (!arguments.set.empty()) about_flag("--set", [&] { validate(file.scene); });
+  about_flag("--set", [&] {
+    validate(file.scene);
+    (void)linear_model(file.scene);
+  });
   return file;
 }
 
@@ -116,6 +132,18 @@ Axis axis_of(const std::string& flag, const std::string& text, const Scene& scen
 
 std::filesystem::path data_path(const CommonArguments& arguments) {
   return arguments.output && !arguments.output->empty() ? *arguments.output : "-";
+}
+
+std::filesystem::path row_path(const CommonArguments& arguments) {
+  const auto path = data_path(arguments);
+  const std::string ending = path.extension().string();
+  for (const std::string_view other : {".npy", ".npz", ".h5", ".hdf5", ".png", ".svg", ".pdf"}) {
+    if (ending == other)
+      throw UsageError("-o '" + path.string() + "': this command writes CSV, or JSON with --json");
+  }
+  if (arguments.json && ending == ".csv") throw UsageError("--json does not write CSV: -o '" + path.string() + "'");
+  if (!arguments.json && ending == ".json") throw UsageError("-o '" + path.string() + "' goes with --json");
+  return path;
 }
 
 Provenance provenance_of(const CommonArguments& arguments, const SceneFile& scene, Method method,

@@ -39,6 +39,9 @@ Axis axis_of(const std::string& flag, const std::string& text, const Scene& scen
 /// Where the data go: `-` for standard output.
 std::filesystem::path data_path(const CommonArguments& arguments);
 
+/// The same for a command that writes rows, CSV or JSON. Throws UsageError for the ending of another format.
+std::filesystem::path row_path(const CommonArguments& arguments);
+
 /// Provenance with command, scene, model, method and tolerance.
 Provenance provenance_of(const CommonArguments& arguments, const SceneFile& scene, Method method,
                          double tolerance);

@@ -25,8 +25,8 @@ void prepare_process() {
   ::signal(SIGPIPE, SIG_IGN);
   for (int fd = 0; fd <= 2; ++fd) {
     if (::fcntl(fd, F_GETFD) >= 0) continue;
-    // Standard output in the wrong direction: what is written to it must fail, not vanish.
-    const int opened = ::open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY);
+    // Standard input and output in the wrong direction: using them must fail, not read or write nothing.
+    const int opened = ::open("/dev/null", fd == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
     if (opened >= 0 && opened != fd) ::close(opened);
   }
 }

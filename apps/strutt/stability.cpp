@@ -58,8 +58,12 @@ Points read_points(const StabilityArguments& arguments, const SceneFile& scene, 
     check_method(method, linear_model(scene.scene));
     return {{}, {{}}};
   }
-  NumericTable table =
-      read_table(*arguments.points, {.required = {}, .optional = parameter_paths(scene.scene)});
+  TableSchema schema{.required = {}, .optional = parameter_paths(scene.scene)};
+  for (const auto& path : schema.optional) {
+    const std::string unit = parameter_info(scene.scene, path).unit;
+    if (!unit.empty()) schema.units[path] = unit;
+  }
+  NumericTable table = read_table(*arguments.points, schema);
   ScenePoint point(scene.scene, table.columns);
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     try {
@@ -191,7 +195,7 @@ ExitCode run(const StabilityArguments& arguments) {
   warn_about(arguments, scene.scene);
 
   install_signal_handlers();
-  RowWriter writer(data_path(arguments), arguments.json, columns_of(scene.scene, points),
+  RowWriter writer(row_path(arguments), arguments.json, columns_of(scene.scene, points),
                    provenance_of(arguments, scene, options.method, options.tolerance));
   Progress progress(!arguments.quiet, "rows");
   const Counts counts = compute(scene.scene, points, options, threads, writer, progress);

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace strutt {
 namespace {
@@ -33,10 +34,10 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
   if (threads == 1) {
     run(0, count, 0);
   } else {
-    // More threads than cores are the caller's choice: without this TBB warns on stderr and refuses them.
-    using Control = tbb::global_control;
-    const auto allowed = Control::active_value(Control::max_allowed_parallelism);
-    const Control control(Control::max_allowed_parallelism, std::max(allowed, static_cast<std::size_t>(threads)));
+    // Unless told otherwise TBB has no more threads than the machine has cores, and complains when asked for more.
+    std::optional<tbb::global_control> more;
+    if (threads > tbb::this_task_arena::max_concurrency())
+      more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     arena.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {

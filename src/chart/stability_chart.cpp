@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kStripCells = 65'536;
-constexpr std::size_t kBatchCells = 512;  // per thread between two looks at progress
 
 // Cost of a cell, measured on one core of a 2020s server at tolerance 1e-9; for the forecast only.
 struct CellCost {
@@ -112,6 +112,25 @@ struct CellRecord {
   long right_hand_sides = 0;
 };
 
+/// How many cells are computed between two looks at progress: as many as take a fraction of a second.
+class BatchSize {
+ public:
+  explicit BatchSize(int threads) : threads_(static_cast<std::size_t>(threads)), size_(kFirst * threads_) {}
+
+  std::size_t size() const { return size_; }
+  std::size_t most() const { return kMost * threads_; }
+
+  void adapt(double seconds) {
+    if (seconds < 0.1) size_ = std::min(2 * size_, most());
+    if (seconds > 0.4) size_ = std::max(size_ / 2, threads_);
+  }
+
+ private:
+  static constexpr std::size_t kFirst = 8, kMost = 512;  // per thread
+  std::size_t threads_;
+  std::size_t size_;
+};
+
 void add(ChartSummary& summary, const CellRecord& cell, bool with_verdict) {
   ++summary.cells;
   ++summary.outcomes[static_cast<std::size_t>(cell.outcome)];
@@ -169,15 +188,16 @@ ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, cons
   summary.outcomes.assign(kOutcomeCount, 0);
   ChartStrip strip{.columns = nx, .values = std::vector<std::vector<double>>(layers)};
   for (auto& layer : strip.values) layer.reserve(plan.rows_per_strip * nx);
-  const std::size_t batch = kBatchCells * static_cast<std::size_t>(plan.threads);
-  std::vector<CellRecord> records(batch);
+  BatchSize batch(plan.threads);
+  std::vector<CellRecord> records(batch.most());
 
   for (strip.first_row = 0; strip.first_row < ny; strip.first_row += strip.rows) {
     strip.rows = std::min(plan.rows_per_strip, ny - strip.first_row);
     const std::size_t cells = strip.rows * nx;
     for (auto& layer : strip.values) layer.resize(cells);  // the last strip may be shorter
-    for (std::size_t start = 0; start < cells; start += batch) {
-      const std::size_t count = std::min(batch, cells - start);
+    for (std::size_t start = 0, count = 0; start < cells; start += count) {
+      const auto begin = std::chrono::steady_clock::now();
+      count = std::min(batch.size(), cells - start);
       const bool complete = parallel_for(count, parallel, [&](std::size_t k, int slot) {
         const std::size_t cell = start + k;
         const auto result = workers[static_cast<std::size_t>(slot)]->compute(
@@ -193,6 +213,7 @@ ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, cons
       }
       for (std::size_t k = 0; k < count; ++k) add(summary, records[k], with_verdict);
       if (progress) progress(summary.cells, plan.cells);
+      batch.adapt(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
     sink(strip);
   }

@@ -19,18 +19,20 @@ class CsvWriter : public ChartWriter {
     for (std::size_t j = 0; j < strip.rows; ++j) write_row(strip, j);
   }
 
-  void commit() override {
+  void prepare() override {
     order_.finish();
+    file_.prepare();
+  }
+
+  void commit() override {
+    prepare();
     file_.commit();
   }
 
  private:
-  /// An empty unit stands for a column of words.
-  static std::string number_unit(const ParameterInfo& info) { return info.unit.empty() ? "1" : info.unit; }
-
   static std::string head(const ChartDescription& description) {
     const ChartRequest& request = description.request;
-    std::string units = "# units: " + number_unit(description.x) + "," + number_unit(description.y);
+    std::string units = "# units: " + unit_of(description.x) + "," + unit_of(description.y);
     std::string names = request.x.parameter + "," + request.y.parameter;
     for (const Layer layer : request.layers) {
       units += "," + std::string(unit_of(layer));

@@ -74,6 +74,8 @@ std::unique_ptr<ChartWriter> make_chart_writer(const std::filesystem::path& path
                      "' is not known: a chart file ends with .csv, .npy, .npz, .h5 or .hdf5");
 }
 
+std::string unit_of(const ParameterInfo& info) { return info.unit.empty() ? "1" : info.unit; }
+
 std::vector<std::string> category_names(Layer layer) {
   std::vector<std::string> names;
   if (layer == Layer::verdict) {

@@ -37,11 +37,18 @@ class Hdf5Writer : public ChartWriter {
     for (std::size_t l = 0; l < layers_.size(); ++l) write_layer(l, strip);
   }
 
-  void commit() override {
+  void prepare() override {
+    if (prepared_) return;
     order_.finish();
     for (auto& layer : layers_) check(layer.close(), sink_);
     check(H5Fflush(file_, H5F_SCOPE_LOCAL), sink_);
     check(file_.close(), sink_);
+    output_.prepare();
+    prepared_ = true;
+  }
+
+  void commit() override {
+    prepare();
     output_.commit();
   }
 
@@ -65,6 +72,8 @@ class Hdf5Writer : public ChartWriter {
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, sink_);
     // Contiguous, and every cell is written once: no fill values beforehand.
     check(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), sink_);
+    // No time of writing: the same chart is the same file. The date stands in the provenance.
+    check(H5Pset_obj_track_times(properties, false), sink_);
     return {H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, sink_};
   }
 
@@ -75,7 +84,7 @@ class Hdf5Writer : public ChartWriter {
     check(H5DSset_scale(set, name), sink_);
     write_attribute(set, "parameter", axis.parameter, sink_);
     write_attribute(set, "long_name", info.label, sink_);
-    write_attribute(set, "units", info.unit.empty() ? "1" : info.unit, sink_);
+    write_attribute(set, "units", unit_of(info), sink_);
     write_attribute(set, "scale", axis.scale == AxisScale::logarithmic ? "log" : "linear", sink_);
     return set;
   }
@@ -115,6 +124,7 @@ class Hdf5Writer : public ChartWriter {
   Handle file_;
   std::vector<Handle> layers_;
   std::string buffer_;
+  bool prepared_ = false;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ using Json = nlohmann::ordered_json;
 
 Json axis_json(const Axis& axis, const ParameterInfo& info) {
   return {{"parameter", axis.parameter},
-          {"unit", info.unit},
+          {"unit", unit_of(info)},
           {"label", info.label},
           {"from", axis.from},
           {"to", axis.to},

@@ -50,9 +50,14 @@ class NpyWriter : public ChartWriter {
     file_.write(layer_bytes(layer_, strip.values[0], buffer_));
   }
 
-  void commit() override {
+  void prepare() override {
     order_.finish();
     file_.prepare();
+    metadata_.prepare();
+  }
+
+  void commit() override {
+    prepare();
     metadata_.commit();
     try {
       file_.commit();
@@ -102,12 +107,19 @@ class NpzWriter : public ChartWriter {
     }
   }
 
-  void commit() override {
+  void prepare() override {
+    if (prepared_) return;
     order_.finish();
     for (std::size_t m = 0; m < layout_.count(); ++m) {
       file_.write_at(layout_.header_offset(m), layout_.local_header(m, crcs_[m]));
     }
     file_.write_at(layout_.directory_offset(), layout_.directory(crcs_));
+    file_.prepare();
+    prepared_ = true;
+  }
+
+  void commit() override {
+    prepare();
     file_.commit();
   }
 
@@ -134,6 +146,7 @@ class NpzWriter : public ChartWriter {
   std::vector<std::uint32_t> crcs_;
   std::vector<std::uint64_t> written_;
   std::string buffer_;
+  bool prepared_ = false;
 };
 
 }  // namespace

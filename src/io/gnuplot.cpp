@@ -7,11 +7,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 
 #include "io/text.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/io/figure.hpp"
 #include "strutt/io/output_file.hpp"
 
 extern char** environ;
@@ -52,7 +54,25 @@ int wait_for(pid_t child, bool& interrupted) {
   return status;
 }
 
+[[noreturn]] void fail_without_gnuplot(const std::filesystem::path& figure) {
+  throw InputOutputError("cannot draw '" + printable(figure.string()) +
+                             "': the program gnuplot is not installed or not in the PATH",
+                         0);
+}
+
 }  // namespace
+
+void require_gnuplot(const std::filesystem::path& figure) {
+  const char* const variable = std::getenv("PATH");
+  const std::string path = variable == nullptr ? "/bin:/usr/bin" : variable;  // what posix_spawnp falls back to
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const auto end = std::min(path.find(':', begin), path.size());
+    const std::filesystem::path directory = path.substr(begin, end - begin);
+    if (::access((directory / "gnuplot").c_str(), X_OK) == 0) return;
+    begin = end + 1;
+  }
+  fail_without_gnuplot(figure);
+}
 
 std::string gnuplot_string(std::string_view text) {
   std::string result = "'";
@@ -92,7 +112,7 @@ void GnuplotRun::run(const std::string& script, const std::filesystem::path& fig
   pid_t child = 0;
   const int error = ::posix_spawnp(&child, program.c_str(), actions.get(), nullptr, arguments, environ);
   const std::string what = "cannot draw '" + printable(figure.string()) + "'";
-  if (error == ENOENT) throw InputOutputError(what + ": the program gnuplot is not installed or not in the PATH", 0);
+  if (error == ENOENT) fail_without_gnuplot(figure);
   if (error != 0) throw InputOutputError(what + ": gnuplot does not start", error);
   bool interrupted = false;
   const int status = wait_for(child, interrupted);

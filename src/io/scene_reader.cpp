@@ -77,7 +77,7 @@ std::vector<double> read_samples(const TomlTable& table, const std::filesystem::
   }
   const std::string file = table.text("samples");
   if (file.empty()) document.fail(node, table.path_of("samples") + " must be the name of a CSV file");
-  const auto samples = read_table(directory / file, {.required = {"r"}, .optional = {}});
+  const auto samples = read_table(directory / file, {.required = {"r"}, .optional = {}, .units = {{"r", "m"}}});
   for (const auto& row : samples.rows) values.push_back(row[0]);
   return values;
 }

@@ -4,6 +4,7 @@
 
 #include "io/csv_reader.hpp"
 #include "io/text.hpp"
+#include "strutt/io/scene_file.hpp"
 
 namespace strutt {
 namespace {
@@ -25,11 +26,24 @@ std::string quoted_list(const std::vector<std::string>& names) {
   return result;
 }
 
-/// The name in `name [unit]`.
-std::string_view without_unit(std::string_view header) {
-  const auto bracket = header.find('[');
-  if (bracket == std::string_view::npos || header.back() != ']') return header;
-  return trimmed(header.substr(0, bracket));
+/// A column as its header describes it.
+struct Header {
+  std::string name;
+  std::string unit;       // empty: that of the dimension
+  std::string dimension;  // the SI unit
+};
+
+/// The parts of `name` or `name [unit]`.
+Header split_header(std::string_view text, const TableSchema& schema) {
+  Header header{.name = std::string(text), .unit = {}, .dimension = {}};
+  const auto bracket = text.find('[');
+  const bool has_unit = bracket != std::string_view::npos && text.back() == ']';
+  if (has_unit) header.name = trimmed(text.substr(0, bracket));
+  const auto found = schema.units.find(header.name);
+  if (found == schema.units.end()) return header;
+  header.dimension = found->second;
+  if (has_unit) header.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
+  return header;
 }
 
 std::vector<std::string> known_names(const TableSchema& schema) {
@@ -54,35 +68,46 @@ void check_name(const CsvReader& reader, const CsvCell& cell, const std::string&
   reader.fail(cell, text);
 }
 
-std::vector<std::string> read_header(CsvReader& reader, const TableSchema& schema) {
+/// A decimal number, checked before, in the unit of its column.
+double converted(const CsvReader& reader, const CsvCell& cell, const std::string& number, const Header& header) {
+  try {
+    return parse_quantity(number + " " + header.unit, header.dimension);
+  } catch (const InvalidInput& error) {
+    reader.fail(cell, "column '" + printable(header.name) + "': " + error.what());
+  }
+}
+
+std::vector<Header> read_header(CsvReader& reader, const TableSchema& schema) {
   const auto& cells = reader.cells();
   const auto known = known_names(schema);
+  std::vector<Header> headers;
   std::vector<std::string> names;
   for (const auto& cell : cells) {
-    std::string name(without_unit(cell.text));
-    check_name(reader, cell, name, names, known);
-    names.push_back(std::move(name));
+    headers.push_back(split_header(cell.text, schema));
+    check_name(reader, cell, headers.back().name, names, known);
+    names.push_back(headers.back().name);
+    if (!headers.back().unit.empty()) converted(reader, cell, "1", headers.back());  // does the unit fit?
   }
   for (const auto& name : schema.required) {
     if (!contains(names, name)) {
       reader.fail(cells.front(), "the column '" + name + "' is missing; the columns are " + quoted_list(names));
     }
   }
-  return names;
+  return headers;
 }
 
-double read_cell(const CsvReader& reader, const CsvCell& cell, const std::string& column) {
-  const std::string in = " in column '" + printable(column) + "'";
+double read_cell(const CsvReader& reader, const CsvCell& cell, const Header& header) {
+  const std::string in = " in column '" + printable(header.name) + "'";
   if (cell.text.empty()) reader.fail(cell, "empty cell" + in);
   double value = 0.0;
   if (!parse_number(std::string(cell.text), value)) {
     const std::string shown = printable(cell.text.substr(0, 40)) + (cell.text.size() > 40 ? "..." : "");
     reader.fail(cell, "'" + shown + "'" + in + " is not a finite decimal number in the range of double");
   }
-  return value;
+  return header.unit.empty() ? value : converted(reader, cell, std::string(cell.text), header);
 }
 
-std::vector<double> read_row(const CsvReader& reader, const std::vector<std::string>& columns) {
+std::vector<double> read_row(const CsvReader& reader, const std::vector<Header>& columns) {
   const auto& cells = reader.cells();
   if (cells.size() != columns.size()) {
     const auto& where = cells.size() > columns.size() ? cells[columns.size()] : cells.back();
@@ -111,9 +136,10 @@ NumericTable read_table(const std::filesystem::path& path, const TableSchema& sc
   table.file = path == "-" ? "standard input" : path.string();
   CsvReader reader(path, table.file);
   if (!reader.next()) throw FileError(table.file, 1, 1, "the file is empty: a line with column names is missing");
-  table.columns = read_header(reader, schema);
+  const auto headers = read_header(reader, schema);
+  for (const auto& header : headers) table.columns.push_back(header.name);
   while (reader.next()) {
-    table.rows.push_back(read_row(reader, table.columns));
+    table.rows.push_back(read_row(reader, headers));
     table.lines.push_back(reader.line());
   }
   if (table.rows.empty()) throw FileError(table.file, reader.line(), 0, "there are no rows below the header");

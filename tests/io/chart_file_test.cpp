@@ -351,6 +351,7 @@ TEST_CASE("h5py reads .h5 with labelled axes", "[io][chart_file][python]") {
          "assert list(f['verdict'].attrs['flag_values']) == [0, 1, 2, 3]\n"
          "assert text(f['verdict'].attrs['flag_meanings']) == 'stable unstable boundary unresolved'\n"
          "assert text(f['x'].attrs['parameter']) == 'support.frequency'\n"
+         "assert all(h5py.h5g.get_objinfo(f.id, n.encode()).mtime == 0 for n in f)\n"
          "assert text(f['x'].attrs['units']) == 'rad/s' and text(f['y'].attrs['units']) == '1'\n"
          "assert text(f.attrs['Conventions']) == 'CF-1.10'\n"
          "assert len(json.loads(text(f.attrs['provenance']))['scene']) == 100000\n"

@@ -59,6 +59,23 @@ TEST_CASE("harmless varieties of CSV mean the same", "[io][table]") {
   CHECK(read(content).rows == expected);
 }
 
+TEST_CASE("a unit in the header converts the column", "[io][table]") {
+  const ScratchDirectory directory;
+  const TableSchema schema{.required = {"length"}, .optional = {"label"}, .units = {{"length", "m"}}};
+  const auto rows = [&](const std::string& text) { return read_table(directory.with("t.csv", text), schema).rows; };
+  using Rows = std::vector<std::vector<double>>;
+  CHECK(rows("length [cm],label [anything]\n7,7\n") == Rows{{0.07, 7.0}});  // correctly rounded, not 7 * 0.01
+  CHECK(rows("length[ mm ]\n1e3\n") == Rows{{1.0}});
+  CHECK(rows("length [m]\n7\n") == Rows{{7.0}});
+  CHECK(rows("length []\n7\n") == Rows{{7.0}});
+  const auto refusal = [&](const std::string& text) { return message_of<FileError>([&] { rows(text); }); };
+  CHECK_THAT(refusal("label,length [s]\n1,2\n"), Catch::Matchers::Contains("t.csv:1:7: column 'length': ") &&
+                                                      Catch::Matchers::Contains("wrong dimension"));
+  CHECK_THAT(refusal("length [km]\n1\n1e308\n"), Catch::Matchers::Contains("t.csv:3:1: ") &&
+                                                       Catch::Matchers::Contains("beyond the range"));
+  CHECK_THAT(refusal("length [cm]\n7 cm\n"), Catch::Matchers::Contains("t.csv:2:1: '7 cm'"));
+}
+
 TEST_CASE("what is wrong in a table is named with file, line and column", "[io][table][F3]") {
   CHECK(complaint("alpha,beta\n1\n") == "in.csv:2:1: this row has 1 cells, the header 2");
   CHECK(complaint("alpha,beta\n1,2\n1,2,3\n") == "in.csv:3:5: this row has 3 cells, the header 2");

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ class FileError : public InvalidInput {
   FileError(const std::string& file, int line, int column, const std::string& what);
 };
 
-/// A numeric CSV table as read: column names without units, rows of doubles, and where each row stood in the file.
+/// A numeric CSV table as read: column names without units, rows of doubles in SI units, and where each row stood in the file.
 struct NumericTable {
   std::string file;
   std::vector<std::string> columns;
@@ -29,6 +30,9 @@ struct NumericTable {
 struct TableSchema {
   std::vector<std::string> required;
   std::vector<std::string> optional;
+  /// SI units of columns. Under the header `name [unit]` values are converted to it, and a unit of another dimension is
+  /// an error; in the brackets of other columns may stand anything.
+  std::map<std::string, std::string> units = {};
 };
 
 /// Reads a CSV file (`-`: standard input): UTF-8 with or without BOM, LF or CRLF, with or without final newline, blank
