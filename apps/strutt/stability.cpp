@@ -30,7 +30,7 @@ void check_method(Method method, const LinearModel& model) {
   try {
     method_for(model, method);
   } catch (const InvalidInput& error) {
-    throw UsageError(std::string("--method: ") + error.what());
+    throw UsageError("--method " + std::string(to_string(method)) + ": " + error.what());
   }
 }
 

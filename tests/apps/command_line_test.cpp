@@ -118,7 +118,7 @@ TEST_CASE("values of the common flags outside their range are refused", "[apps][
   room.refuses(chart({"--layers", "growth,"}), 2, {"--layers"});
 }
 
-TEST_CASE("--set of what is not there or cannot be is refused", "[apps][command_line]") {
+TEST_CASE("a --set of what is not there or cannot be is refused", "[apps][command_line]") {
   const Room room;
   room.refuses(chart({"--set", "mathieu.dampin=1"}), 2, {"did you mean 'mathieu.damping'?"});
   room.refuses(chart({"--set", "support.frequency=1"}), 2, {"support.frequency"});
@@ -187,7 +187,7 @@ TEST_CASE("the plan is a scene that says the same again", "[apps][command_line]"
                                       "--layers", "margin", "--threads", "1"}));
   REQUIRE(plan.code == 0);
   for (const char* part :
-       {"# model: Mathieu", "# cells: 6 (3 x 2)", "# memory: ", "# expected time: ", "# method: arkode",
+       {"# model: Mathieu", "# cells: 6 (3 x 2)", "# memory: ", "# expected time: ", "# method: propagator",
         "# tolerance: 1e-07", "damping = 0.125", "layers = [\"margin\"]"}) {
     CHECK_THAT(plan.out, Catch::Matchers::Contains(part));
   }

@@ -47,7 +47,7 @@ TEST_CASE("a motion has the documented columns, times by lerp with both ends", "
   }
 }
 
-TEST_CASE("--linear about both equilibria is the closed form", "[apps][motion]") {
+TEST_CASE("motion --linear about both equilibria is the closed form", "[apps][motion]") {
   const Words times{"--duration", "1", "--samples", "6", "--linear"};
   for (const auto& row : csv_rows(strutt(motion("0.4", "0.3", times), {.input = kFree}).out)) {
     if (row[0] == "t") continue;

@@ -226,7 +226,7 @@ TEST_CASE("the plan counts before anything is computed", "[chart][stability_char
   const ChartPlan plan = plan_chart(mathieu(), request_of(30, 20, {Layer::verdict, Layer::growth}));
   CHECK(plan.cells == 600);
   CHECK(plan.result_bytes == 8.0 * (2 * 600 + 50));
-  CHECK(plan.method == Method::arkode);
+  CHECK(plan.method == Method::propagator);
   CHECK(plan.expected_seconds > 0.0);
 }
 
