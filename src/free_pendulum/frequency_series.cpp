@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t size_of(int order) {
-  require(order >= 0 && order <= kMostSeriesOrder, "order of the series", order, "0 to 200");
+  require(order >= 0 && order <= kMostSeriesOrder, "order of the series", order, "0 to 100");
   return static_cast<std::size_t>(order) + 1;
 }
 
@@ -38,11 +38,12 @@ Series period_by_energy(const Series& potential, std::size_t size) {
   std::copy(root.begin(), root.end(), xi.begin() + 1);
   const Series phi = inverse(xi);
 
-  Series by_xi(size);  // T/T0 in powers of xi = sqrt(2 E)
+  Series twice_energy(size);  // xi^2 = 2 V
+  for (std::size_t n = 0; n < size; ++n) twice_energy[n] = 2 * potential[n];
+  Series by_energy(size / 2 + 1);  // T/T0 in powers of 2 E
   for (std::size_t n = 0; 2 * n < size; ++n)
-    by_xi[2 * n] = phi[2 * n + 1] * (2 * n + 1) * binomial_central(static_cast<int>(n));
-  xi.resize(size);
-  return composition(by_xi, xi);
+    by_energy[n] = phi[2 * n + 1] * (2 * n + 1) * binomial_central(static_cast<int>(n));
+  return composition(by_energy, twice_energy);
 }
 
 /// The same by way of omega^2.

@@ -18,8 +18,8 @@ using Complex = std::complex<double>;
 using Polynomial = BivariatePolynomial<Complex>;
 
 constexpr Complex kI{0.0, 1.0};
-// About thirty complex operations lie between a coefficient and the result; their products add up to less than half of
-// the magnitude that this factor meets.
+// About thirty complex operations lie between a coefficient and the result; their products add up to less
+// than half of the magnitude that this factor meets.
 constexpr double kRounding = 32 * std::numeric_limits<double>::epsilon();
 
 /// The conjugate of a polynomial: of its coefficients, and w changes place with conj(w).

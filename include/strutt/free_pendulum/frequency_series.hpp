@@ -41,8 +41,8 @@ enum class SeriesMethod {
   lindstedt,
 };
 
-/// Highest order of a series.
-inline constexpr int kMostSeriesOrder = 200;
+/// Highest order of a series: exact numbers of some thousand digits, seconds of work.
+inline constexpr int kMostSeriesOrder = 100;
 
 /// Series for phi'' = -V'(phi), V = potential[2] phi^2 + potential[3] phi^3 + ..., in Taylor coefficients of
 /// V (no factorials): omega0^2 = 2 potential[2]. Missing coefficients are zero. The doubles are taken as
@@ -68,7 +68,7 @@ struct SeriesValue {
 
 /// Sum of c_n A^n, n = 0 ... order. The truncation error is estimated by M q^(order+1)/(1 - q) with q =
 /// A/radius and M the largest |c_n| radius^n in the upper half of the coefficients. It is an upper bound if
-/// later coefficients obey M too, as those of the pendulum do (tested to order 200); for other oscillators it
+/// later coefficients obey M too, as those of the pendulum do (tested to order 100); for other oscillators it
 /// is an estimate. A >= radius: value NaN, error infinite, outcome `failed`. Throws InvalidInput unless A >=
 /// 0 and radius > 0.
 SeriesValue evaluate(const std::vector<Rational>& coefficients, double radius, double amplitude);
