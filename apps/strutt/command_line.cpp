@@ -170,6 +170,7 @@ CLI::App* add_normal_form(CLI::App& app, NormalFormArguments& arguments) {
           "f2_20, ..., f2_03 (no factorials; a missing one is 0): one result per row")
       ->required()
       ->type_name("IN.csv");
+  command->add_option("--tolerance", arguments.tolerance)->group("");  // refused with its reason
   add_output(*command, arguments);
   command->footer(std::string(kNormalFormExample) + kExitCodes);
   return command;

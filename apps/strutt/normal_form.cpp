@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "commands.hpp"
+#include "exit_code.hpp"
 #include "rows.hpp"
 #include "scene_arguments.hpp"
 #include "strutt/base/error.hpp"
@@ -71,6 +72,8 @@ std::vector<Column> columns_of(const NumericTable& table) {
 }  // namespace
 
 ExitCode run(const NormalFormArguments& arguments) {
+  if (arguments.tolerance)
+    throw UsageError("--tolerance is not for normal-form, which computes to full double precision");
   threads_of(arguments);
   const NumericTable table = read_table(arguments.points, {.required = {"alpha"}, .optional = term_names()});
   const std::vector<NormalForm> forms = compute(table);

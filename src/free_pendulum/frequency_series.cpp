@@ -76,9 +76,9 @@ double estimated_radius(const FrequencySeries& series) {
 FrequencySeries frequency_series(const std::vector<double>& potential, int order, SeriesMethod method) {
   const std::size_t size = size_of(order);
   for (const double c : potential)
-    require(std::isfinite(c), "coefficient of the potential", c, "finite numbers");
+    require(std::isfinite(c), "coefficient of the potential", c, "a finite number");
   require(potential.size() > 2 && potential[2] > 0.0, "potential[2]",
-          potential.size() > 2 ? potential[2] : 0.0, "positive numbers: phi = 0 must be a minimum");
+          potential.size() > 2 ? potential[2] : 0.0, "positive: phi = 0 must be a minimum");
   for (const std::size_t n : {0, 1})
     require(potential[n] == 0.0, "potential[0] and potential[1]", potential[n],
             "zero: phi = 0 must be a minimum");
@@ -120,7 +120,7 @@ std::vector<Rational> pendulum_period_series(int order) {
 }
 
 SeriesValue evaluate(const std::vector<Rational>& coefficients, double radius, double amplitude) {
-  require(radius > 0.0, "radius of convergence", radius, "positive numbers");
+  require(radius > 0.0, "radius of convergence", radius, "a positive number");
   require(amplitude >= 0.0, "amplitude", amplitude, "A >= 0");
   const double q = radius == kInfinity ? 0.0 : amplitude / radius;
   if (!(q < 1.0) || !std::isfinite(amplitude))

@@ -53,7 +53,7 @@ FormulaError krylov_error(KrylovVariant variant, double amplitude) {
 }
 
 KrylovMotion::KrylovMotion(KrylovVariant variant, double alpha, double amplitude) : amplitude_(amplitude) {
-  require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "positive numbers");
+  require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "a positive number");
   const double ratio = krylov_frequency_ratio(variant, amplitude);
   frequency_ = alpha * ratio;
   third_harmonic_ = amplitude * amplitude * amplitude / (192.0 * ratio * ratio);
@@ -84,9 +84,9 @@ double cubic_period_ratio(double amplitude) {
 }
 
 double linear_amplitude(double alpha, double angle, double velocity) {
-  require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "positive numbers");
-  require(std::isfinite(angle), "angle", angle, "finite numbers");
-  require(std::isfinite(velocity), "velocity", velocity, "finite numbers");
+  require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "a positive number");
+  require(std::isfinite(angle), "angle", angle, "a finite number");
+  require(std::isfinite(velocity), "velocity", velocity, "a finite number");
   return std::hypot(angle, velocity / alpha);
 }
 

@@ -132,10 +132,10 @@ bool is_finite(const NonlinearTerms& g) {
 }
 
 void validate(const PlanarCoefficients& system) {
-  require(system.alpha > 0.0 && std::isfinite(system.alpha), "alpha", system.alpha, "positive numbers");
+  require(system.alpha > 0.0 && std::isfinite(system.alpha), "alpha", system.alpha, "a positive number");
   for (const auto* f : {&system.f1, &system.f2})
     each_term(*f,
-              [](const double& c, int) { require(std::isfinite(c), "coefficient", c, "finite numbers"); });
+              [](const double& c, int) { require(std::isfinite(c), "coefficient", c, "a finite number"); });
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr double kEquilibriumTolerance = 64 * kEpsilon;
 
 void require_finite(const NonlinearTerms& f) {
   each_term(
-      f, [](const double& c, int) { require(std::isfinite(c), "Taylor coefficient", c, "finite numbers"); });
+      f, [](const double& c, int) { require(std::isfinite(c), "Taylor coefficient", c, "a finite number"); });
 }
 
 /// a d - b c with one rounding error of the result, not of the products (Kahan).
@@ -34,7 +34,7 @@ NonlinearTerms terms_of(const Jet& f) {
 
 JordanForm jordan_form(const PlanarSystem& system) {
   const auto& a = system.linear;
-  require(a.allFinite(), "entry of A", a(0, 0), "finite numbers");
+  require(a.allFinite(), "entry of A", a(0, 0), "a finite number");
   require_finite(system.f1);
   require_finite(system.f2);
   const double trace = a.trace();
@@ -64,7 +64,7 @@ PlanarSystem taylor_expansion(const PlanarField& field, const Eigen::Vector2d& e
                                                 {f[1].coefficient(1, 0), f[1].coefficient(0, 1)}},
                       .f1 = terms_of(f[0]),
                       .f2 = terms_of(f[1])};
-  require(system.linear.allFinite(), "entry of A", system.linear.sum(), "finite numbers");
+  require(system.linear.allFinite(), "entry of A", system.linear.sum(), "a finite number");
   require_finite(system.f1);
   require_finite(system.f2);
   const double most =
