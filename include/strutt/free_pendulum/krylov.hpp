@@ -40,7 +40,7 @@ class KrylovMotion {
 double krylov_frequency_ratio(KrylovVariant variant, double amplitude);
 double krylov_period_ratio(KrylovVariant variant, double amplitude);
 
-/// Amplitude of a formula, T/T0, and how far it is from the pendulum's true value.
+/// T/T0 by a formula, and how far that is from the true value of the pendulum.
 struct FormulaError {
   double ratio = 1.0;           ///< T/T0 by the formula
   double relative_error = 0.0;  ///< ratio/exact - 1, signed
