@@ -43,11 +43,16 @@ struct MotionArguments : CommonArguments {
   bool linear = false;
 };
 
+struct NormalFormArguments : CommonArguments {
+  std::string points;
+};
+
 /// --help or --version: text for standard output, nothing else to do.
 struct Information {
   std::string text;
 };
 
-using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments>;
+using Arguments =
+    std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, NormalFormArguments>;
 
 }  // namespace strutt::app

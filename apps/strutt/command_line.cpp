@@ -34,7 +34,13 @@ Example:
   strutt motion scene.toml --angle "30 deg" --velocity 0 --duration 2 --samples 21
 )";
 
-const std::vector<std::string> kCommands{"chart", "stability", "motion"};
+constexpr const char* kNormalFormExample = R"(
+Example (the pendulum: delta = 0, beta = -1/16):
+  printf 'alpha,f2_30\n1,0.16666666666666667\n' > coefficients.csv
+  strutt normal-form --points coefficients.csv
+)";
+
+const std::vector<std::string> kCommands{"chart", "stability", "motion", "normal-form"};
 
 // Flags that change neither the numbers nor how they are written, with the number of values they take.
 struct SilentFlag {
@@ -75,19 +81,9 @@ std::string recorded_command(int argc, const char* const* argv) {
   return text;
 }
 
-void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
-  command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
-      ->type_name("T");
-  command.add_option("--method", arguments.method, "auto (default), propagator, cvode, arkode, exact")->type_name("M");
+/// The flags of every command, with or without a scene.
+void add_output(CLI::App& command, CommonArguments& arguments) {
   command.add_option("--threads", arguments.threads, "number of threads (default: all)")->type_name("N");
-  command
-      .add_option("--set", arguments.set,
-                  "change a parameter of the scene; the value may have a unit; repeatable")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
   command.add_option("-o,--output", arguments.output, "where the data go; - or nothing: standard output")
       ->type_name("FILE");
   command.add_flag("--json", arguments.json, "write JSON instead of CSV");
@@ -98,6 +94,21 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
   command.set_help_flag("-h,--help", "print this help and exit");
   command.set_version_flag("--version", "strutt " + version_text(), "print the version and exit");
   command.allow_extras();  // told apart afterwards, with a suggestion
+}
+
+void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
+  command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
+      ->required()
+      ->type_name("SCENE");
+  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
+      ->type_name("T");
+  command.add_option("--method", arguments.method, "auto (default), propagator, cvode, arkode, exact")->type_name("M");
+  command
+      .add_option("--set", arguments.set,
+                  "change a parameter of the scene; the value may have a unit; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  add_output(command, arguments);
 }
 
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
@@ -150,7 +161,26 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
   return command;
 }
 
-std::string one_of_the_commands() { return "the commands are chart, stability, motion (see strutt --help)"; }
+CLI::App* add_normal_form(CLI::App& app, NormalFormArguments& arguments) {
+  auto* command = app.add_subcommand("normal-form", "third-order normal form of planar centres");
+  command
+      ->add_option(
+          "--points", arguments.points,
+          "CSV file with the column alpha and any of f1_20, f1_11, f1_02, f1_30, f1_21, f1_12, f1_03, "
+          "f2_20, ..., f2_03 (no factorials; a missing one is 0): one result per row")
+      ->required()
+      ->type_name("IN.csv");
+  command->add_option("--tolerance", arguments.tolerance)->group("");  // refused with its reason
+  add_output(*command, arguments);
+  command->footer(std::string(kNormalFormExample) + kExitCodes);
+  return command;
+}
+
+std::string one_of_the_commands() {
+  std::string names;
+  for (const auto& command : kCommands) names += (names.empty() ? "" : ", ") + command;
+  return "the commands are " + names + " (see strutt --help)";
+}
 
 std::vector<std::string> flag_names(const CLI::App& command) {
   std::vector<std::string> names;
@@ -196,9 +226,11 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   ChartArguments chart;
   StabilityArguments stability;
   MotionArguments motion;
+  NormalFormArguments normal_form;
   const CLI::App* chart_command = add_chart(app, chart);
   const CLI::App* stability_command = add_stability(app, stability);
   const CLI::App* motion_command = add_motion(app, motion);
+  const CLI::App* normal_form_command = add_normal_form(app, normal_form);
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto commands = app.get_subcommands();
@@ -219,10 +251,11 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const auto extras = app.remaining(true);
   if (!extras.empty()) refuse(*chosen(), extras);
   const std::string command = recorded_command(argc, argv);
-  chart.command = stability.command = motion.command = command;
+  chart.command = stability.command = motion.command = normal_form.command = command;
   if (chosen() == chart_command) return chart;
   if (chosen() == stability_command) return stability;
   if (chosen() == motion_command) return motion;
+  if (chosen() == normal_form_command) return normal_form;
   refuse_command({});
 }
 

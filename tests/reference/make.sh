@@ -6,7 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 work=${1:-$(mktemp -d)}
 target=${2:-$here}
 mkdir -p "$work"
-for program in cases taylor fourier collocation merge; do
+for program in cases taylor fourier collocation merge normal_form; do
     ${CXX:-g++} -O2 -std=c++20 "$here/$program.cpp" -o "$work/$program"
 done
 "$work/cases" "$work"
@@ -17,4 +17,5 @@ taylor=$!
 "$work/collocation" "$work"
 wait $taylor
 "$work/merge" "$work" "$target"
+"$work/normal_form" "$target"
 echo "written to $target"
