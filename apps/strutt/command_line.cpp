@@ -34,7 +34,13 @@ Example:
   strutt motion scene.toml --angle "30 deg" --velocity 0 --duration 2 --samples 21
 )";
 
-const std::vector<std::string> kCommands{"chart", "stability", "motion"};
+constexpr const char* kPeriodExample = R"(
+Example:
+  strutt period --amplitude "90 deg"
+  printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
+)";
+
+const std::vector<std::string> kCommands{"chart", "stability", "motion", "period"};
 
 // Flags that change neither the numbers nor how they are written, with the number of values they take.
 struct SilentFlag {
@@ -75,12 +81,15 @@ std::string recorded_command(int argc, const char* const* argv) {
   return text;
 }
 
-void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
+void add_scene(CLI::App& command, CommonArguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
       ->required()
       ->type_name("SCENE");
-  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
-      ->type_name("T");
+}
+
+void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance,
+                const std::string& range = "1e-13 to 1e-2 (default 1e-9)") {
+  command.add_option("--tolerance", arguments.tolerance, tolerance + ", " + range)->type_name("T");
   command.add_option("--method", arguments.method, "auto (default), cvode, arkode, exact")->type_name("M");
   command.add_option("--threads", arguments.threads, "number of threads (default: all)")->type_name("N");
   command
@@ -102,6 +111,7 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
 
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
   auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
+  add_scene(*command, arguments);
   add_common(*command, arguments, "largest error of trace and M");
   command
       ->add_option("--x", arguments.x,
@@ -123,6 +133,7 @@ CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
 
 CLI::App* add_stability(CLI::App& app, StabilityArguments& arguments) {
   auto* command = app.add_subcommand("stability", "verdict, growth, monodromy matrix of one point or many");
+  add_scene(*command, arguments);
   add_common(*command, arguments, "largest error of trace and M");
   command
       ->add_option("--points", arguments.points, "CSV file whose header names parameters: one result per row")
@@ -133,6 +144,7 @@ CLI::App* add_stability(CLI::App& app, StabilityArguments& arguments) {
 
 CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
   auto* command = app.add_subcommand("motion", "time series of the pendulum of a scene");
+  add_scene(*command, arguments);
   add_common(*command, arguments, "largest error of the angle, rad");
   command->add_option("--angle", arguments.angle, "angle at t = 0 from the hanging position")
       ->required()
@@ -150,7 +162,29 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
   return command;
 }
 
-std::string one_of_the_commands() { return "the commands are chart, stability, motion (see strutt --help)"; }
+CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
+  auto* command = app.add_subcommand("period", "exact period of the free pendulum at an amplitude");
+  command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
+      ->type_name("SCENE");
+  add_common(*command, arguments, "largest relative error of the period", "5e-16 to 1e-1 (default 1e-15)");
+  command->add_option("--amplitude", arguments.amplitude, "largest angle, 0 to 3.141592653589793")
+      ->type_name("RAD");
+  command->add_option("--from-top", arguments.from_top, "pi - amplitude, 0 to pi")->type_name("RAD");
+  command
+      ->add_option("--separatrix-excess", arguments.separatrix_excess,
+                   "(velocity/alpha)^2 - 4 cos^2(angle/2), >= -4: negative librations, positive rotations")
+      ->type_name("E");
+  command
+      ->add_option("--points", arguments.points,
+                   "CSV file with a column amplitude, from_top or separatrix_excess, and alpha if wanted")
+      ->type_name("IN.csv");
+  command->footer(std::string(kPeriodExample) + kExitCodes);
+  return command;
+}
+
+std::string one_of_the_commands() {
+  return "the commands are chart, stability, motion, period (see strutt --help)";
+}
 
 std::vector<std::string> flag_names(const CLI::App& command) {
   std::vector<std::string> names;
@@ -196,9 +230,11 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   ChartArguments chart;
   StabilityArguments stability;
   MotionArguments motion;
+  PeriodArguments period;
   const CLI::App* chart_command = add_chart(app, chart);
   const CLI::App* stability_command = add_stability(app, stability);
   const CLI::App* motion_command = add_motion(app, motion);
+  const CLI::App* period_command = add_period(app, period);
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto commands = app.get_subcommands();
@@ -219,10 +255,11 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const auto extras = app.remaining(true);
   if (!extras.empty()) refuse(*chosen(), extras);
   const std::string command = recorded_command(argc, argv);
-  chart.command = stability.command = motion.command = command;
+  chart.command = stability.command = motion.command = period.command = command;
   if (chosen() == chart_command) return chart;
   if (chosen() == stability_command) return stability;
   if (chosen() == motion_command) return motion;
+  if (chosen() == period_command) return period;
   refuse_command({});
 }
 

@@ -25,6 +25,7 @@ struct Quotient {
   double error;
 };
 Quotient divide(double velocity, DoubleDouble alpha) {
+  if (velocity == 0.0) return {0.0, 0.0};
   const DoubleDouble value = DoubleDouble(velocity) / alpha;
   const bool exact =
       value.lo == 0.0 && alpha.lo == 0.0 && two_product(value.hi, alpha.hi) == DoubleDouble(velocity);
@@ -173,6 +174,25 @@ FreeState FreeMotion::at(double t) const {
   FreeState state = orbit_->local_state(tau);
   state.velocity *= orbit_->alpha.hi;
   return state;
+}
+
+Motion free_motion(const Eigenfrequency& alpha, const MotionStart& start, std::span<const double> times,
+                   double tolerance, const std::atomic<bool>* cancel) {
+  require(tolerance > 0.0, "tolerance", tolerance, "> 0");
+  for (const double t : times) require(t >= 0.0 && std::isfinite(t), "t", t, "finite and >= 0");
+  const FreeMotion motion(alpha, start.angle, start.velocity);
+  Motion result;
+  result.method = Method::exact;
+  result.points.reserve(times.size());
+  for (const double t : times) {
+    result.cancelled = cancel != nullptr && cancel->load(std::memory_order_relaxed);
+    if (result.cancelled) break;
+    const FreeState state = motion.at(t);
+    const Outcome outcome = state.error <= tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
+    result.points.push_back(
+        {t, state.angle, state.velocity, motion.energy().separatrix_excess, state.error, outcome});
+  }
+  return result;
 }
 
 }  // namespace strutt

@@ -23,9 +23,10 @@ DoubleDouble sum_of(const Eigenfrequency& alpha) { return {alpha.value, alpha.re
 /// `ratio_error` is relative.
 Period period_of(double ratio, double ratio_error, const Eigenfrequency& alpha) {
   alpha.validate();
-  if (std::isinf(ratio)) return {ratio, ratio, ratio, 0.0};
-  const double period = (DoubleDouble(ratio) * kTwoPi / sum_of(alpha)).hi;
-  return {ratio, period, 0.25 * period, ratio_error + kRounded};
+  if (std::isinf(ratio)) return {ratio, ratio, ratio, 0.0, PeriodMethod::separatrix};
+  double period = (DoubleDouble(ratio) * kTwoPi / sum_of(alpha)).hi;
+  if (!std::isfinite(period)) period = std::numeric_limits<double>::infinity();  // alpha below 1e-307
+  return {ratio, period, 0.25 * period, ratio_error + kRounded, PeriodMethod::elliptic};
 }
 
 BoundedNumber rounded(DoubleDouble value) { return {value.hi, kRounded}; }
@@ -68,6 +69,10 @@ void check_amplitude(double amplitude) {
 }
 
 }  // namespace
+
+std::string_view to_string(PeriodMethod method) {
+  return method == PeriodMethod::separatrix ? "separatrix" : "elliptic";
+}
 
 Period period_of_amplitude(double amplitude, const Eigenfrequency& alpha) {
   check_amplitude(amplitude);

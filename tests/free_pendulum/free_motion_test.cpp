@@ -1,6 +1,8 @@
 #include "strutt/free_pendulum/free_motion.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <limits>
 #include <random>
@@ -148,4 +150,44 @@ TEST_CASE("a free motion refuses misuse", "[free_pendulum][motion][error]") {
   CHECK_THROWS_AS(FreeMotion({0.0, 0.0}, 0.0, 0.0), InvalidInput);
   CHECK_THROWS_AS(FreeMotion({1.0, 1e-3}, 0.0, 0.0), InvalidInput);
   CHECK_THROWS_AS(FreeMotion({}, 1.0, 0.0).at(nan), InvalidInput);
+}
+
+TEST_CASE("a series has the states of the single calls, in the order of the times",
+          "[free_pendulum][motion]") {
+  const Eigenfrequency alpha{3.8, 0.0};
+  const std::array<double, 4> times{5.0, 0.0, 1e8, 2.5};
+  const FreeMotion single(alpha, 1.0, -0.3);
+  const Motion series = free_motion(alpha, {1.0, -0.3}, times, 1e-13);
+  REQUIRE(series.points.size() == times.size());
+  CHECK(series.method == Method::exact);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    CHECK(series.points[i].t == times[i]);
+    CHECK(series.points[i].angle == single.at(times[i]).angle);
+    CHECK(series.points[i].velocity == single.at(times[i]).velocity);
+    CHECK(series.points[i].energy == single.energy().separatrix_excess);
+    CHECK(series.points[i].outcome == Outcome::converged);
+  }
+  // 2 alpha is the separatrix, but not if alpha has a rest: that is told from it only for a while.
+  const Eigenfrequency shifted{1.0, 1e-40};
+  const Motion late = free_motion(shifted, {0.0, 2.0}, std::array{1.0, 1e3});
+  CHECK(late.points[0].outcome == Outcome::converged);
+  CHECK(late.points[1].outcome == Outcome::tolerance_not_reached);
+  std::atomic<bool> stop{true};
+  CHECK(free_motion(alpha, {}, times, 1e-9, &stop).cancelled);
+  CHECK_THROWS_AS(free_motion(alpha, {}, std::array{-1.0}), InvalidInput);
+  CHECK_THROWS_AS(free_motion(alpha, {}, times, 0.0), InvalidInput);
+}
+
+TEST_CASE("the closed form and the integrator give one motion", "[free_pendulum][motion][referee]") {
+  const PendulumTable table{.length = 1.0};
+  const auto rod = PhysicalPendulum::uniform_rod(1.0, 1.0);
+  const MotionStart start = GENERATE(MotionStart{1.0, 0.5}, MotionStart{3.0, 0.0}, MotionStart{-1.0, 12.0});
+  const std::array<double, 2> times{3.0, 20.0};
+  const Motion closed = free_motion(eigenfrequency(table), start, times);
+  const Motion integrated = integrate_motion(rod, nullptr, nullptr, start, times);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    CHECK(std::abs(closed.points[i].angle - integrated.points[i].angle) <=
+          closed.points[i].error + integrated.points[i].error);
+    CHECK(closed.points[i].error < 1e-13);
+  }
 }

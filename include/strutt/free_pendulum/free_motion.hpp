@@ -1,9 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
+#include <span>
 
 #include "strutt/free_pendulum/eigenfrequency.hpp"
 #include "strutt/free_pendulum/energy.hpp"
+#include "strutt/integrate/motion.hpp"
 
 namespace strutt {
 
@@ -39,5 +42,11 @@ class FreeMotion {
   struct Orbit;
   std::shared_ptr<const Orbit> orbit_;
 };
+
+/// The motion at every one of `times` (s, >= 0, finite, any order), with method `exact` and no cost: the
+/// counterpart of integrate_motion. Points whose error is above `tolerance` (rad, > 0) are
+/// `tolerance_not_reached`. Throws InvalidInput.
+Motion free_motion(const Eigenfrequency& alpha, const MotionStart& start, std::span<const double> times,
+                   double tolerance = 1e-9, const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace strutt

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "strutt/free_pendulum/eigenfrequency.hpp"
 
@@ -30,13 +31,21 @@ double period_ratio_from_top(double from_top);
 void period_ratios(std::span<const double> amplitude, std::span<double> ratio);
 void period_ratios_from_top(std::span<const double> from_top, std::span<double> ratio);
 
+/// How a period was found.
+enum class PeriodMethod : signed char {
+  elliptic,    ///< the closed form
+  separatrix,  ///< infinite
+};
+/// As written to files: `elliptic`, `separatrix`.
+std::string_view to_string(PeriodMethod method);
+
 /// A period. `error` bounds the relative errors of all three.
 struct Period {
   double ratio = 1.0;   ///< T/T0
   double period = 0.0;  ///< T, s for alpha in rad/s
-  double quarter =
-      0.0;  ///< T/4: from the bottom to the turning point; rotation: to an angle of a quarter of its time
+  double quarter = 0.0;  ///< T/4; in a libration the time from the bottom to the turning point
   double error = 0.0;  ///< <= 3.5e-16; 0 on the separatrix, where ratio and period are +inf
+  PeriodMethod method = PeriodMethod::elliptic;
 };
 
 /// Throws InvalidInput for an argument outside the ranges above (E >= -4 and finite: -4 is rest, ratio 1; 0
