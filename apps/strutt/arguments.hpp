@@ -47,12 +47,19 @@ struct NormalFormArguments : CommonArguments {
   std::string points;
 };
 
+struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not given
+  std::optional<std::string> amplitude;
+  std::optional<std::string> from_top;
+  std::optional<std::string> separatrix_excess;
+  std::optional<std::string> points;
+};
+
 /// --help or --version: text for standard output, nothing else to do.
 struct Information {
   std::string text;
 };
 
-using Arguments =
-    std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, NormalFormArguments>;
+using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
+                               NormalFormArguments>;
 
 }  // namespace strutt::app

@@ -40,7 +40,13 @@ Example (the pendulum: delta = 0, beta = -1/16):
   strutt normal-form --points coefficients.csv
 )";
 
-const std::vector<std::string> kCommands{"chart", "stability", "motion", "normal-form"};
+constexpr const char* kPeriodExample = R"(
+Example:
+  strutt period --amplitude "90 deg"
+  printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
+)";
+
+const std::vector<std::string> kCommands{"chart", "stability", "motion", "period", "normal-form"};
 
 // Flags that change neither the numbers nor how they are written, with the number of values they take.
 struct SilentFlag {
@@ -96,13 +102,16 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
   command.allow_extras();  // told apart afterwards, with a suggestion
 }
 
-void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
+void add_scene(CLI::App& command, CommonArguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
       ->required()
       ->type_name("SCENE");
-  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
-      ->type_name("T");
-  command.add_option("--method", arguments.method, "auto (default), propagator, cvode, arkode, exact")->type_name("M");
+}
+
+void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance,
+                const std::string& methods, const std::string& range = "1e-13 to 1e-2 (default 1e-9)") {
+  command.add_option("--tolerance", arguments.tolerance, tolerance + ", " + range)->type_name("T");
+  command.add_option("--method", arguments.method, "auto (default), " + methods)->type_name("M");
   command
       .add_option("--set", arguments.set,
                   "change a parameter of the scene; the value may have a unit; repeatable")
@@ -113,7 +122,8 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
 
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
   auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
-  add_common(*command, arguments, "largest error of trace and M");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "largest error of trace and M", "propagator, cvode, arkode, exact");
   command
       ->add_option("--x", arguments.x,
                    "horizontal axis: parameter path, ends, number of points, :log for a log axis")
@@ -134,7 +144,8 @@ CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
 
 CLI::App* add_stability(CLI::App& app, StabilityArguments& arguments) {
   auto* command = app.add_subcommand("stability", "verdict, growth, monodromy matrix of one point or many");
-  add_common(*command, arguments, "largest error of trace and M");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "largest error of trace and M", "propagator, cvode, arkode, exact");
   command
       ->add_option("--points", arguments.points, "CSV file whose header names parameters: one result per row")
       ->type_name("IN.csv");
@@ -144,7 +155,8 @@ CLI::App* add_stability(CLI::App& app, StabilityArguments& arguments) {
 
 CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
   auto* command = app.add_subcommand("motion", "time series of the pendulum of a scene");
-  add_common(*command, arguments, "largest error of the angle, rad");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "largest error of the angle, rad", "exact, arkode, cvode");
   command->add_option("--angle", arguments.angle, "angle at t = 0 from the hanging position")
       ->required()
       ->type_name("RAD");
@@ -173,6 +185,26 @@ CLI::App* add_normal_form(CLI::App& app, NormalFormArguments& arguments) {
   command->add_option("--tolerance", arguments.tolerance)->group("");  // refused with its reason
   add_output(*command, arguments);
   command->footer(std::string(kNormalFormExample) + kExitCodes);
+  return command;
+}
+
+CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
+  auto* command = app.add_subcommand("period", "exact period of the free pendulum at an amplitude");
+  command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
+      ->type_name("SCENE");
+  add_common(*command, arguments, "largest relative error of the period", "exact", "5e-16 to 1e-1 (default 1e-15)");
+  command->add_option("--amplitude", arguments.amplitude, "largest angle, 0 to 3.141592653589793")
+      ->type_name("RAD");
+  command->add_option("--from-top", arguments.from_top, "pi - amplitude, 0 to pi")->type_name("RAD");
+  command
+      ->add_option("--separatrix-excess", arguments.separatrix_excess,
+                   "(velocity/alpha)^2 - 4 cos^2(angle/2), >= -4: negative librations, positive rotations")
+      ->type_name("E");
+  command
+      ->add_option("--points", arguments.points,
+                   "CSV file with a column amplitude, from_top or separatrix_excess, and alpha if wanted")
+      ->type_name("IN.csv");
+  command->footer(std::string(kPeriodExample) + kExitCodes);
   return command;
 }
 
@@ -226,10 +258,12 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   ChartArguments chart;
   StabilityArguments stability;
   MotionArguments motion;
+  PeriodArguments period;
   NormalFormArguments normal_form;
   const CLI::App* chart_command = add_chart(app, chart);
   const CLI::App* stability_command = add_stability(app, stability);
   const CLI::App* motion_command = add_motion(app, motion);
+  const CLI::App* period_command = add_period(app, period);
   const CLI::App* normal_form_command = add_normal_form(app, normal_form);
 
   const auto chosen = [&]() -> const CLI::App* {
@@ -251,10 +285,11 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const auto extras = app.remaining(true);
   if (!extras.empty()) refuse(*chosen(), extras);
   const std::string command = recorded_command(argc, argv);
-  chart.command = stability.command = motion.command = normal_form.command = command;
+  chart.command = stability.command = motion.command = period.command = normal_form.command = command;
   if (chosen() == chart_command) return chart;
   if (chosen() == stability_command) return stability;
   if (chosen() == motion_command) return motion;
+  if (chosen() == period_command) return period;
   if (chosen() == normal_form_command) return normal_form;
   refuse_command({});
 }

@@ -9,6 +9,7 @@
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/free_pendulum/free_motion.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -58,6 +59,33 @@ std::vector<double> times_of(const MotionArguments& arguments) {
   return times;
 }
 
+/// Does the closed form fit? Nothing but gravity may act.
+bool is_free(const Scene& scene, bool linear) {
+  return !linear && !scene.support && !scene.moment && scene.pendulum->damping == 0.0;
+}
+
+/// The method that auto stands for; throws UsageError if the one asked for does not fit.
+Method chosen_method(Method asked, const Scene& scene, bool linear) {
+  const bool free = is_free(scene, linear);
+  if (asked == Method::exact && !free) {
+    throw UsageError(
+        "--method exact needs a free pendulum (no [support], [moment], damping, --linear); available are "
+        "auto, "
+        "cvode, arkode");
+  }
+  return asked == Method::automatic && free ? Method::exact : asked;
+}
+
+Motion compute(const Scene& scene, const MotionStart& start, const std::vector<double>& times,
+               const MotionOptions& options) {
+  if (options.method == Method::exact)
+    return free_motion(eigenfrequency(*scene.pendulum), start, times, options.tolerance, options.cancel);
+  const auto support_motion = support(scene);
+  const auto driving_moment = moment(scene);
+  return integrate_motion(pendulum(scene), support_motion ? &*support_motion : nullptr,
+                          driving_moment ? &*driving_moment : nullptr, start, times, options);
+}
+
 ExitCode write_rows(RowWriter& writer, const Motion& motion) {
   ExitCode code = ExitCode::done;
   std::vector<Cell> row;
@@ -84,22 +112,26 @@ void summarise(const MotionArguments& arguments, const Motion& motion, double se
 
 ExitCode run(const MotionArguments& arguments) {
   check_flags(arguments);
-  MotionOptions options{.tolerance = tolerance_of(arguments),
-                        .method = method_of(arguments, "motion", {Method::arkode, Method::cvode}),
-                        .linear = arguments.linear,
-                        .cancel = &cancel_flag()};
+  MotionOptions options{
+      .tolerance = tolerance_of(arguments),
+      .method = method_of(arguments, "motion", {Method::arkode, Method::cvode, Method::exact}),
+      .linear = arguments.linear,
+      .cancel = &cancel_flag()};
   threads_of(arguments);  // one motion is one thread; a wrong value is an error all the same
   const MotionStart start{quantity_of("--angle", arguments.angle, "rad"),
                           quantity_of("--velocity", arguments.velocity, "rad/s")};
   const SceneFile scene = load_scene(arguments);
   if (!scene.scene.pendulum) throw FileError(scene.file, 0, 0, "motion needs a scene with [pendulum]");
   options.about = scene.scene.pendulum->about;
+  options.method = chosen_method(options.method, scene.scene, options.linear);
   const std::vector<double> times = times_of(arguments);
   if (arguments.dry_run) {
-    print_plan(scene, {"times: " + (arguments.times ? std::to_string(times.size()) : *arguments.samples),
-                       "method: " + std::string(to_string(options.method)),
-                       "tolerance: " + to_text(options.tolerance), "threads: 1",
-                       fmt::format("steps: at most {}", options.max_steps)});
+    print_plan(scene,
+               {"times: " + (arguments.times ? std::to_string(times.size()) : *arguments.samples),
+                "method: " + std::string(to_string(options.method)),
+                "tolerance: " + to_text(options.tolerance), "threads: 1",
+                options.method == Method::exact ? "steps: none, closed form"
+                                                : fmt::format("steps: at most {}", options.max_steps)});
     return ExitCode::done;
   }
   if (arguments.linear) warn_about(arguments, scene.scene);
@@ -114,10 +146,7 @@ ExitCode run(const MotionArguments& arguments) {
                     {"error", "rad"},
                     {"outcome", ""}},
                    provenance_of(arguments, scene, options.method, options.tolerance));
-  const auto support_motion = support(scene.scene);
-  const auto driving_moment = moment(scene.scene);
-  const Motion motion = integrate_motion(pendulum(scene.scene), support_motion ? &*support_motion : nullptr,
-                                         driving_moment ? &*driving_moment : nullptr, start, times, options);
+  const Motion motion = compute(scene.scene, start, times, options);
   throw_if_interrupted();
   const ExitCode code = write_rows(writer, motion);
   summarise(arguments, motion, clock.seconds());

@@ -83,11 +83,12 @@ std::uint64_t count_of(const std::string& flag, const std::string& text, std::ui
   return value;
 }
 
-double tolerance_of(const CommonArguments& arguments, double otherwise) {
+double tolerance_of(const CommonArguments& arguments, double otherwise, const ToleranceRange& range) {
   if (!arguments.tolerance) return otherwise;
   double value = 0.0;
-  if (!parse_number(*arguments.tolerance, value) || !(value >= 1e-13 && value <= 1e-2)) {
-    throw UsageError("--tolerance = '" + *arguments.tolerance + "' is not a number from 1e-13 to 1e-2");
+  if (!parse_number(*arguments.tolerance, value) || !(value >= range.least && value <= range.most)) {
+    throw UsageError(fmt::format("--tolerance = '{}' is not a number from {} to {}", *arguments.tolerance,
+                                 to_text(range.least), to_text(range.most)));
   }
   return value;
 }

@@ -23,8 +23,15 @@ double quantity_of(const std::string& flag, const std::string& text, const std::
 std::uint64_t count_of(const std::string& flag, const std::string& text, std::uint64_t least,
                        std::uint64_t most);
 
+/// The tolerances that a command takes.
+struct ToleranceRange {
+  double least = 1e-13;
+  double most = 1e-2;
+};
+
 /// --tolerance, or `otherwise` if it was not given. Throws UsageError naming the range.
-double tolerance_of(const CommonArguments& arguments, double otherwise = 1e-9);
+double tolerance_of(const CommonArguments& arguments, double otherwise = 1e-9,
+                    const ToleranceRange& range = {});
 
 /// --method, which must be one of `available` (besides auto). Throws UsageError naming them.
 Method method_of(const CommonArguments& arguments, const std::string& command,
