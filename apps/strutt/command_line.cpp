@@ -34,7 +34,14 @@ Example:
   strutt motion scene.toml --angle "30 deg" --velocity 0 --duration 2 --samples 21
 )";
 
-const std::vector<std::string> kCommands{"chart", "stability", "motion"};
+constexpr const char* kPortraitExample = R"(
+Examples:
+  strutt portrait --cells 2 -o portrait.csv
+  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.02\n' > scene.toml
+  strutt portrait scene.toml --curves 10 --sections 20 -o sections.npz || test $? -eq 1
+)";
+
+const std::vector<std::string> kCommands{"chart", "stability", "motion", "portrait"};
 
 // Flags that change neither the numbers nor how they are written, with the number of values they take.
 struct SilentFlag {
@@ -75,12 +82,8 @@ std::string recorded_command(int argc, const char* const* argv) {
   return text;
 }
 
-void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
-  command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
-      ->type_name("T");
+/// What every command has besides the scene and the tolerance.
+void add_shared(CLI::App& command, CommonArguments& arguments) {
   command.add_option("--method", arguments.method, "auto (default), cvode, arkode, exact")->type_name("M");
   command.add_option("--threads", arguments.threads, "number of threads (default: all)")->type_name("N");
   command
@@ -98,6 +101,15 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
   command.set_help_flag("-h,--help", "print this help and exit");
   command.set_version_flag("--version", "strutt " + version_text(), "print the version and exit");
   command.allow_extras();  // told apart afterwards, with a suggestion
+}
+
+void add_common(CLI::App& command, CommonArguments& arguments, const std::string& tolerance) {
+  command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
+      ->required()
+      ->type_name("SCENE");
+  command.add_option("--tolerance", arguments.tolerance, tolerance + ", 1e-13 to 1e-2 (default 1e-9)")
+      ->type_name("T");
+  add_shared(command, arguments);
 }
 
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
@@ -150,7 +162,34 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
   return command;
 }
 
-std::string one_of_the_commands() { return "the commands are chart, stability, motion (see strutt --help)"; }
+CLI::App* add_portrait(CLI::App& app, PortraitArguments& arguments) {
+  auto* command = app.add_subcommand("portrait", "phase portrait of a pendulum; sections of it if it is excited");
+  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text, const char* type) {
+    return command->add_option(flag, value, text)->type_name(type);
+  };
+  command
+      ->add_option("scene", arguments.scene,
+                   "scene file (TOML), - for standard input; without one: the free pendulum with alpha = 1")
+      ->type_name("SCENE");
+  add_shared(*command, arguments);
+  add("--tolerance", arguments.tolerance, "refused", "T")->group("");
+  add("--cells", arguments.cells, "width of the window in periods of 2 pi (default 3; excited: 1)", "N");
+  add("--curves", arguments.curves, "number of librations (default 7); excited: of starts (default 60)", "N");
+  add("--points", arguments.points, "free: points of a closed curve (default 201)", "N");
+  add("--amplitudes", arguments.amplitudes, "free: amplitudes of the librations", "RAD,...");
+  add("--excesses", arguments.excesses, "free: further levels C1 - 2, < 0 libration, > 0 rotation", "E,...");
+  add("--sections", arguments.sections, "excited: sections of every start (default 300)", "N");
+  add("--starts", arguments.starts, "excited: CSV file with the columns angle, velocity", "IN.csv");
+  add("--figure", arguments.figure, "draw the portrait as .png, .svg or .pdf", "FILE");
+  command->footer(
+      std::string("The ending of -o FILE tells the format: .csv, .npz, .h5; .json with --json.\n"
+                  "Excited means: the scene has [support], [moment] or damping. The sections are one period of the\n"
+                  "excitation apart; a curve ends where the error bound of its angle exceeds 1e-6 rad (exit code 1).\n") +
+      kPortraitExample + kExitCodes);
+  return command;
+}
+
+std::string one_of_the_commands() { return "the commands are chart, stability, motion, portrait (see strutt --help)"; }
 
 std::vector<std::string> flag_names(const CLI::App& command) {
   std::vector<std::string> names;
@@ -199,6 +238,8 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const CLI::App* chart_command = add_chart(app, chart);
   const CLI::App* stability_command = add_stability(app, stability);
   const CLI::App* motion_command = add_motion(app, motion);
+  PortraitArguments portrait;
+  const CLI::App* portrait_command = add_portrait(app, portrait);
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto commands = app.get_subcommands();
@@ -219,10 +260,11 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const auto extras = app.remaining(true);
   if (!extras.empty()) refuse(*chosen(), extras);
   const std::string command = recorded_command(argc, argv);
-  chart.command = stability.command = motion.command = command;
+  chart.command = stability.command = motion.command = portrait.command = command;
   if (chosen() == chart_command) return chart;
   if (chosen() == stability_command) return stability;
   if (chosen() == motion_command) return motion;
+  if (chosen() == portrait_command) return portrait;
   refuse_command({});
 }
 

@@ -9,5 +9,6 @@ ExitCode run(const Information& information);
 ExitCode run(const ChartArguments& arguments);
 ExitCode run(const StabilityArguments& arguments);
 ExitCode run(const MotionArguments& arguments);
+ExitCode run(const PortraitArguments& arguments);
 
 }  // namespace strutt::app

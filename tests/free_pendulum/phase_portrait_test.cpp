@@ -78,7 +78,7 @@ TEST_CASE("every point lies on its level within the rounding of the point", "[fr
       const auto [error, bound] = level_error(p, curve.separatrix_excess, options.alpha);
       INFO(to_string(curve.kind) << " E = " << curve.separatrix_excess << " at " << p.angle << ", "
                                  << p.velocity);
-      REQUIRE(error <= 4.0L * bound + 1e-300L);
+      REQUIRE(error <= bound + 1e-300L);
       if (bound > 0.0L) worst = std::max(worst, error / bound);
     }
   }
