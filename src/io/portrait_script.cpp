@@ -113,6 +113,13 @@ std::string colour_bar() {
       kRightOfBar + 0.02, kBottomWithoutKey, kTop - kBottomWithoutKey);
 }
 
+/// Few dots are drawn larger, so that they are seen.
+double dot_size(const std::vector<PhaseCurve>& curves) {
+  double count = 1.0;
+  for (const auto& curve : curves) count += static_cast<double>(curve.points.size());
+  return std::clamp(0.22 * std::sqrt(20000.0 / count), 0.22, 0.8);
+}
+
 std::string lines(CurveKind kind, double width, const char* colour) {
   return fmt::format("'{}' using 1:2 with lines linewidth {} linecolor rgb '{}' title '{}', ",
                      portrait_file(kind), width, colour, to_string(kind));
@@ -181,8 +188,11 @@ std::string portrait_script(const std::vector<PhaseCurve>& curves, const Portrai
                             FigureFormat format) {
   std::string text = frame(curves, description, format);
   if (!has_field(curves)) {
-    return text + colour_bar() + "unset key\nplot '" + portrait_file(CurveKind::section) +
-           "' using 1:2:3 with points pointtype 7 pointsize 0.22 linecolor palette notitle\nunset output\n";
+    return text + colour_bar() +
+           fmt::format(
+               "unset key\nplot '{}' using 1:2:3 with points pointtype 7 pointsize {:.3g} linecolor palette "
+               "notitle\nunset output\n",
+               portrait_file(CurveKind::section), dot_size(curves));
   }
   text += fmt::format(
       "plot '{}' with vectors size screen 0.005,20 filled linewidth 0.5 linecolor rgb '{}' "

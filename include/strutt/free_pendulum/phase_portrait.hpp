@@ -68,8 +68,8 @@ inline double window_half_width(int cells) { return cells * std::numbers::pi; }
 ///
 /// On every curve the points follow each other at equal arc length in the plane (phi, phi'/alpha), to 1e-14
 /// of the length of the curve within a period of 2 pi. Closed curves repeat their first point bit by bit; a
-/// rotation repeats itself from period to period, shifted by 2 pi. Cost: about 1 us a point. Throws
-/// InvalidInput.
+/// rotation repeats itself from period to period, shifted by 2 pi. Cost: some microseconds for a point of one
+/// cell. Throws InvalidInput.
 std::vector<PhaseCurve> phase_portrait(const PortraitOptions& options = {});
 
 }  // namespace strutt
