@@ -54,12 +54,23 @@ struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not g
   std::optional<std::string> points;
 };
 
+struct PortraitArguments : CommonArguments {  // the scene may be missing
+  std::optional<std::string> cells;
+  std::optional<std::string> curves;
+  std::optional<std::string> points;
+  std::optional<std::string> amplitudes;
+  std::optional<std::string> excesses;
+  std::optional<std::string> sections;
+  std::optional<std::string> starts;
+  std::optional<std::string> figure;
+};
+
 /// --help or --version: text for standard output, nothing else to do.
 struct Information {
   std::string text;
 };
 
 using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
-                               NormalFormArguments>;
+                               PortraitArguments, NormalFormArguments>;
 
 }  // namespace strutt::app

@@ -46,7 +46,14 @@ Example:
   printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
 )";
 
-const std::vector<std::string> kCommands{"chart", "stability", "motion", "period", "normal-form"};
+constexpr const char* kPortraitExample = R"(
+Examples:
+  strutt portrait --cells 2 -o portrait.csv
+  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.02\n' > scene.toml
+  strutt portrait scene.toml --curves 10 --sections 20 -o sections.npz || test $? -eq 1
+)";
+
+const std::vector<std::string> kCommands{"chart", "stability", "motion", "period", "portrait", "normal-form"};
 
 // Flags that change neither the numbers nor how they are written, with the number of values they take.
 struct SilentFlag {
@@ -102,6 +109,14 @@ void add_output(CLI::App& command, CommonArguments& arguments) {
   command.allow_extras();  // told apart afterwards, with a suggestion
 }
 
+void add_set(CLI::App& command, CommonArguments& arguments) {
+  command
+      .add_option("--set", arguments.set,
+                  "change a parameter of the scene; the value may have a unit; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
 void add_scene(CLI::App& command, CommonArguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (TOML), - for standard input")
       ->required()
@@ -112,11 +127,7 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
                 const std::string& methods, const std::string& range = "1e-13 to 1e-2 (default 1e-9)") {
   command.add_option("--tolerance", arguments.tolerance, tolerance + ", " + range)->type_name("T");
   command.add_option("--method", arguments.method, "auto (default), " + methods)->type_name("M");
-  command
-      .add_option("--set", arguments.set,
-                  "change a parameter of the scene; the value may have a unit; repeatable")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false);
+  add_set(command, arguments);
   add_output(command, arguments);
 }
 
@@ -170,6 +181,35 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
       ->type_name("IN.csv");
   command->add_flag("--linear", arguments.linear, "the linearised equation");
   command->footer(std::string(kMotionExample) + kExitCodes);
+  return command;
+}
+
+CLI::App* add_portrait(CLI::App& app, PortraitArguments& arguments) {
+  auto* command = app.add_subcommand("portrait", "phase portrait of a pendulum; sections of it if it is excited");
+  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text, const char* type) {
+    return command->add_option(flag, value, text)->type_name(type);
+  };
+  command
+      ->add_option("scene", arguments.scene,
+                   "scene file (TOML), - for standard input; without one: the free pendulum with alpha = 1")
+      ->type_name("SCENE");
+  command->add_option("--method", arguments.method, "auto (default), cvode, arkode, exact")->type_name("M");
+  add_set(*command, arguments);
+  add_output(*command, arguments);
+  add("--tolerance", arguments.tolerance, "refused", "T")->group("");
+  add("--cells", arguments.cells, "width of the window in periods of 2 pi (default 3; excited: 1)", "N");
+  add("--curves", arguments.curves, "number of librations (default 7); excited: of starts (default 60)", "N");
+  add("--points", arguments.points, "free: points of a closed curve (default 201)", "N");
+  add("--amplitudes", arguments.amplitudes, "free: amplitudes of the librations", "RAD,...");
+  add("--excesses", arguments.excesses, "free: further levels C1 - 2, < 0 libration, > 0 rotation", "E,...");
+  add("--sections", arguments.sections, "excited: sections of every start (default 300)", "N");
+  add("--starts", arguments.starts, "excited: CSV file with the columns angle, velocity", "IN.csv");
+  add("--figure", arguments.figure, "draw the portrait as .png, .svg or .pdf", "FILE");
+  command->footer(
+      std::string("The ending of -o FILE tells the format: .csv, .npz, .h5; .json with --json.\n"
+                  "Excited means: the scene has [support], [moment] or damping. The sections are one period of the\n"
+                  "excitation apart; a curve ends where the error bound of its angle exceeds 1e-6 rad (exit code 1).\n") +
+      kPortraitExample + kExitCodes);
   return command;
 }
 
@@ -264,6 +304,8 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const CLI::App* stability_command = add_stability(app, stability);
   const CLI::App* motion_command = add_motion(app, motion);
   const CLI::App* period_command = add_period(app, period);
+  PortraitArguments portrait;
+  const CLI::App* portrait_command = add_portrait(app, portrait);
   const CLI::App* normal_form_command = add_normal_form(app, normal_form);
 
   const auto chosen = [&]() -> const CLI::App* {
@@ -285,11 +327,12 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   const auto extras = app.remaining(true);
   if (!extras.empty()) refuse(*chosen(), extras);
   const std::string command = recorded_command(argc, argv);
-  chart.command = stability.command = motion.command = period.command = normal_form.command = command;
+  chart.command = stability.command = motion.command = period.command = portrait.command = normal_form.command = command;
   if (chosen() == chart_command) return chart;
   if (chosen() == stability_command) return stability;
   if (chosen() == motion_command) return motion;
   if (chosen() == period_command) return period;
+  if (chosen() == portrait_command) return portrait;
   if (chosen() == normal_form_command) return normal_form;
   refuse_command({});
 }

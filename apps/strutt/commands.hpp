@@ -11,5 +11,6 @@ ExitCode run(const StabilityArguments& arguments);
 ExitCode run(const MotionArguments& arguments);
 ExitCode run(const PeriodArguments& arguments);
 ExitCode run(const NormalFormArguments& arguments);
+ExitCode run(const PortraitArguments& arguments);
 
 }  // namespace strutt::app

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "io/chart_writers.hpp"
+#include "io/file_ending.hpp"
 #include "io/text.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/outcome.hpp"
@@ -27,20 +28,6 @@ constexpr Format kFormats[] = {{".csv", make_csv_writer},
                                {".npz", make_npz_writer},
                                {".h5", make_hdf5_writer},
                                {".hdf5", make_hdf5_writer}};
-
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return ending;
-}
-
-/// A device or pipe has no ending; text is what can be piped.
-bool is_device(const std::filesystem::path& path) {
-  std::error_code ignored;
-  return path.string().starts_with("/dev/") || std::filesystem::is_other(path, ignored);
-}
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/chart_writers.hpp"
+#include "io/figure_format.hpp"
 #include "io/figure_script.hpp"
 #include "io/gnuplot.hpp"
 #include "io/text.hpp"
@@ -12,23 +13,14 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kLargestPicture = std::size_t{1} << 30;
 /// Small charts are drawn with so many pixels at least, so that no viewer smooths their cells.
 constexpr std::size_t kFewestPixels = 500;
-
-FigureFormat format_of(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  if (ending == ".png") return FigureFormat::png;
-  if (ending == ".svg") return FigureFormat::svg;
-  if (ending == ".pdf") return FigureFormat::pdf;
-  throw InvalidInput("the format of '" + printable(path.string()) + "' is not known: a figure ends with .png, .svg or .pdf");
-}
 
 }  // namespace
 
 struct ChartFigure::State {
   State(const std::filesystem::path& path, const ChartDescription& d)
-      : target(path), format(format_of(path)), file(path), description(d), data(d.request), order(d.request) {}
+      : target(path), format(figure_format(path)), file(path), description(d), data(d.request), order(d.request) {}
 
   std::filesystem::path target;
   FigureFormat format;

@@ -19,15 +19,6 @@ constexpr int kPaletteSteps = 64;
 constexpr const char* kUnstableKeyColour = "#F2B13C";
 constexpr const char* kGrowthLineColour = "#5A1A00";
 
-std::string terminal(FigureFormat format) {
-  switch (format) {
-    case FigureFormat::svg: return "svg size 1600,1100 enhanced font 'DejaVu Sans,20' background '#FFFFFF' linewidth 2";
-    case FigureFormat::pdf: return "pdfcairo size 8in,5.5in enhanced font 'DejaVu Sans,8' linewidth 1";
-    case FigureFormat::png: break;
-  }
-  return "pngcairo size 1600,1100 enhanced font 'DejaVu Sans,20' linewidth 2";
-}
-
 double half_cell(std::size_t cells) { return cells > 1 ? 0.5 / static_cast<double>(cells - 1) : 0.5; }
 
 /// Position of a cell on its axis: 0 ... 1; the only cell of an axis stands in the middle.
@@ -126,7 +117,7 @@ std::string figure_script(const ChartDescription& description, const FigureData&
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n"
       "set border 15 linewidth 0.7 front\nset tics front\nset boxwidth 1\n"
       "set key at screen {},0.012 center bottom horizontal Left reverse samplen 2 width 1 maxrows 2\n",
-      terminal(content.format), kPictureFile, gnuplot_string(chart_title(description)), kLeft, kRight, kBottom, kTop,
+      gnuplot_terminal(content.format), kPictureFile, gnuplot_string(chart_title(description)), kLeft, kRight, kBottom, kTop,
       (kLeft + kRight) / 2);
   text += axis_commands('x', request.x, description.x, data.columns());
   text += axis_commands('y', request.y, description.y, data.rows());

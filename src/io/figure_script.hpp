@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/figure_data.hpp"
+#include "io/figure_format.hpp"
 #include "io/figure_labels.hpp"
 #include "strutt/io/chart_file.hpp"
 
@@ -13,10 +14,6 @@ namespace strutt {
 inline constexpr const char* kCellsFile = "cells.rgb";
 inline constexpr const char* kEdgesFile = "edges.dat";
 inline constexpr const char* kGrowthFile = "growth.dat";
-inline constexpr const char* kPictureFile = "picture";
-
-/// The formats a figure can have.
-enum class FigureFormat { png, svg, pdf };
 
 /// The plotting area in pixels of a picture of 1600 x 1100.
 PlotSize plot_size(const FigureData& data);
