@@ -8,8 +8,36 @@
 #include <algorithm>
 #include <optional>
 
+#ifdef __SANITIZE_THREAD__
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
 namespace strutt {
 namespace {
+
+/// Show the thread sanitizer, which cannot see into TBB, what happens before what.
+void begins_after([[maybe_unused]] void* event) {
+#ifdef __SANITIZE_THREAD__
+  __tsan_acquire(event);
+#endif
+}
+void ends_before([[maybe_unused]] void* event) {
+#ifdef __SANITIZE_THREAD__
+  __tsan_release(event);
+#endif
+}
+
+/// One task, and all of them, also when a body throws.
+struct Task {
+  explicit Task(void* shared) : event(shared) { begins_after(event); }
+  ~Task() { ends_before(event); }
+  void* event;
+};
+struct AllTasks {
+  ~AllTasks() { begins_after(event); }
+  void* event;
+};
 
 bool is_cancelled(const ParallelOptions& options) {
   return options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
@@ -39,8 +67,11 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
     if (threads > tbb::this_task_arena::max_concurrency())
       more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
+    ends_before(&arena);
+    const AllTasks all{&arena};
     arena.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
+        const Task task{&arena};
         run(range.begin(), range.end(), tbb::this_task_arena::current_thread_index());
       });
     });
