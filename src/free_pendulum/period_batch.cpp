@@ -77,6 +77,13 @@ Evaluate chosen() {
   return evaluate_sse2<Input>;
 }
 
+/// The elements that the table is not made for, one by one.
+template <typename Input>
+void repair(const double* input, double* ratio, std::size_t count, double (*one)(double)) {
+  for (std::size_t i = 0; i < count; ++i)
+    if ((strange_bits(input[i], Input::distance(input[i])) >> 63) != 0) ratio[i] = one(input[i]);
+}
+
 template <typename Input>
 void evaluate(std::span<const double> input, std::span<double> ratio, double (*one)(double)) {
   if (input.size() != ratio.size())
@@ -87,7 +94,7 @@ void evaluate(std::span<const double> input, std::span<double> ratio, double (*o
   for (std::size_t first = 0; first < input.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, input.size() - first);
     const double* const in = input.data() + first;
-    if (!block(columns, in, result.data(), count)) std::transform(in, in + count, result.begin(), one);
+    if (!block(columns, in, result.data(), count)) repair<Input>(in, result.data(), count, one);
     std::copy_n(result.begin(), count, ratio.data() + first);
   }
 }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "free_pendulum/exact.hpp"
+#include "free_pendulum/orbit_start.hpp"
 #include "strutt/base/error.hpp"
 
 using namespace strutt;
@@ -70,9 +71,11 @@ TEST_CASE("the classes of orbits", "[free_pendulum][energy][exact]") {
   CHECK(energy_integral(0.0, std::nextafter(2.0, 3.0)).kind == MotionKind::rotation);
   CHECK(energy_integral(1.0, 0.0).constant() == Approx(-2.0 * std::cos(1.0)).epsilon(1e-15));
   CHECK(to_string(MotionKind::unresolved) == "unresolved");
-  // 2 sin(d/2) = d (1 - d^2/24): with d = pi - phi the excess of v = d is d^4/12, 1e-34 for pi - phi as a
-  // double can be.
   CHECK(energy_integral(3.0, 2.0 * std::cos(1.5)).kind != MotionKind::unresolved);
+  // No double comes that close; a velocity of twice the precision does.
+  const DoubleDouble nearest = ldexp(sin_cos(1.5).cosine, 1);
+  CHECK(orbit_start(3.0, nearest, 0.0).kind == MotionKind::unresolved);
+  CHECK(orbit_start(3.0, nearest * DoubleDouble(1.0 + 1e-15), 0.0).kind == MotionKind::rotation);
 }
 
 TEST_CASE("orbits of a given excess", "[free_pendulum][energy][exact]") {

@@ -35,7 +35,7 @@ class FreeMotion {
 
   const EnergyIntegral& energy() const;
 
-  /// Any finite time, also negative (throws InvalidInput for the others). About 10 microseconds.
+  /// Any finite time, also negative (throws InvalidInput for the others). About 3 microseconds.
   FreeState at(double t) const;
 
  private:

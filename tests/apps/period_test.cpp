@@ -1,0 +1,136 @@
+// `strutt period`, and `strutt motion` where the closed form fits.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+namespace strutt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+const std::string kFree = "[pendulum]\nlength = 1\n";
+
+Result period(const Words& more, const Setup& setup = {}) {
+  Words words{"period"};
+  words.insert(words.end(), more.begin(), more.end());
+  return strutt(words, setup);
+}
+
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+/// The only row of a result, which must have succeeded.
+Words row_of(const Result& result) {
+  INFO(result.err);
+  REQUIRE(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 2);
+  return rows[1];
+}
+
+}  // namespace
+
+TEST_CASE("a period has the documented columns and digits", "[apps][period]") {
+  const Result result = period({"--amplitude", "1.5707963267948966"});
+  CHECK(csv_rows(result.out).at(0) == Words{"amplitude", "period", "ratio", "error", "method", "outcome"});
+  CHECK(csv_comment(result.out, "units") == "rad,s,1,1,,");
+  const Words row = row_of(result);
+  CHECK(number(row[2]) == 1.18034059901609622604533794);
+  CHECK(number(row[1]) == Approx(2.0 * std::acos(-1.0) * 1.18034059901609622604533794).epsilon(1e-15));
+  CHECK(number(row[3]) <= 3.5e-16);
+  CHECK(row[4] == "elliptic");
+  CHECK(row[5] == "converged");
+  CHECK(row_of(period({"--amplitude", "90 deg"}))[2] == row[2]);
+  CHECK(number(row_of(period({"--amplitude", "3.0"}))[2]) == 2.571233949432142049257416);
+}
+
+TEST_CASE("the ends of the range of periods", "[apps][period]") {
+  CHECK(row_of(period({"--amplitude", "0"}))[2] == "1");
+  CHECK(row_of(period({"--separatrix-excess", "-4"}))[2] == "1");
+  CHECK(number(row_of(period({"--amplitude", "3.141592653589793"}))[2]) == Approx(24.65).epsilon(1e-4));
+  for (const Words& flags : {Words{"--from-top", "0"}, Words{"--separatrix-excess", "0"}}) {
+    const Words row = row_of(period(flags));
+    CHECK(row[1] == "inf");
+    CHECK(row[4] == "separatrix");
+  }
+  // Excess -E inside is from_top = sqrt(E); a rotation takes half the time next to the separatrix.
+  const double inside = number(row_of(period({"--separatrix-excess", "-1e-300"}))[2]);
+  CHECK(inside == Approx(number(row_of(period({"--from-top", "1e-150"}))[2])).epsilon(1e-15));
+  CHECK(number(row_of(period({"--separatrix-excess", "1e-300"}))[2]) == Approx(0.5 * inside).epsilon(1e-15));
+}
+
+TEST_CASE("periods of a file keep their columns and their order", "[apps][period]") {
+  const Result result = period({"--points", "-"}, {.input = "alpha,from_top\n2,1e-300\n1,0.1\n"});
+  REQUIRE(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0] == Words{"alpha", "from_top", "period", "ratio", "error", "method", "outcome"});
+  CHECK(rows[1][0] == "2");
+  CHECK(rows[1][1] == "1e-300");
+  CHECK(number(rows[1][2]) == Approx(std::acos(-1.0) * number(rows[1][3])).epsilon(1e-15));
+  const auto json = nlohmann::json::parse(period({"--amplitude", "1", "--json"}).out);
+  CHECK(json.at("rows").at(0).at("method") == "elliptic");
+  CHECK(json.at("rows").at(0).at("ratio").get<double>() == Approx(1.0663342455799631));
+}
+
+TEST_CASE("a scene gives alpha", "[apps][period]") {
+  const Words row = row_of(period({"--amplitude", "1", "--scene", "-"}, {.input = kFree}));
+  const double alpha = std::sqrt(1.5 * 9.81);
+  CHECK(number(row[1]) == Approx(2.0 * std::acos(-1.0) / alpha * number(row[2])).epsilon(1e-15));
+  const Words shorter =
+      row_of(period({"--amplitude", "1", "--scene", "-", "--set", "pendulum.length=0.25"}, {.input = kFree}));
+  CHECK(number(shorter[1]) == Approx(0.5 * number(row[1])).epsilon(1e-15));
+}
+
+TEST_CASE("periods refuse what has none", "[apps][period][error]") {
+  const auto fails = [](const Words& flags, int code, const std::string& why, const Setup& setup = {}) {
+    const Result result = period(flags, setup);
+    INFO(result.err);
+    CHECK(result.code == code);
+    CHECK(result.out.empty());
+    CHECK(result.err.find(why) != std::string::npos);
+  };
+  fails({"--amplitude", "3.15"}, 2, "amplitude = 3.15");
+  fails({"--amplitude", "-1"}, 2, "amplitude = -1");
+  fails({"--amplitude", "nan"}, 2, "nan");
+  fails({"--from-top", "4"}, 2, "from_top = 4");
+  fails({"--separatrix-excess", "-4.1"}, 2, ">= -4");
+  fails({}, 2, "exactly one of");
+  fails({"--amplitude", "1", "--from-top", "1"}, 2, "exactly one of");
+  fails({"--amplitude", "1", "--tolerance", "1e-16"}, 2, "5e-16");
+  fails({"--amplitude", "1", "--set", "pendulum.length=1"}, 2, "--scene");
+  fails({"--amplitude", "1", "--method", "cvode"}, 2, "available are auto, exact");
+  fails({"--points", "-"}, 3, ":3", {.input = "amplitude\n1\n4\n"});
+  fails({"--points", "-"}, 3, "exclude each other", {.input = "amplitude,from_top\n1,1\n"});
+  fails({"--points", "-"}, 3, "wanted is a column", {.input = "alpha\n1\n"});
+  fails({"--points", "-"}, 3, "alpha = 0", {.input = "amplitude,alpha\n1,0\n"});
+  const auto scene_fails = [&](const std::string& text, const std::string& why) {
+    fails({"--amplitude", "1", "--scene", "-"}, 3, why, {.input = text});
+  };
+  scene_fails(kFree + "damping = 0.1\n", "damping");
+  scene_fails(kFree + "[support]\nfrequency = 1\n", "[support]");
+  scene_fails(kFree + "[moment]\nconstant = 1\n", "[moment]");
+  scene_fails("[mathieu]\n", "[pendulum]");
+}
+
+TEST_CASE("the motion of a free pendulum is in closed form", "[apps][motion][free]") {
+  const Words flags{"motion", "-",          "--quiet", "--angle",   "3", "--velocity",
+                    "0",      "--duration", "1e8",     "--samples", "2"};
+  const Result result = strutt(flags, {.input = kFree});
+  REQUIRE(result.code == 0);
+  CHECK(csv_comment(result.out, "method") == "exact");
+  CHECK(number(csv_rows(result.out).at(2).at(4)) < 1e-14);
+  Words exact = flags;
+  exact.insert(exact.end(), {"--method", "exact"});
+  CHECK(strutt(exact, {.input = kFree}).out.substr(0, 5) == "# pro");
+  for (const std::string& scene : {kFree + "damping = 0.1\n", kFree + "[support]\nfrequency = 1\n"}) {
+    const Result refused = strutt(exact, {.input = scene});
+    CHECK(refused.code == 2);
+    CHECK(refused.err.find("free pendulum") != std::string::npos);
+  }
+  exact.push_back("--linear");
+  CHECK(strutt(exact, {.input = kFree}).code == 2);
+}
+
+}  // namespace strutt::test
