@@ -39,6 +39,27 @@ struct AllTasks {
   void* event;
 };
 
+using Range = tbb::blocked_range<std::size_t>;
+using Work = std::function<void(std::size_t first, std::size_t last, int slot)>;
+
+/// What TBB copies into its tasks. Nothing of the copy may be read under the eyes of the sanitizer before the
+/// task has begun: TBB hands it from thread to thread.
+struct Body {
+  const Work* work;
+  void* event;
+
+  __attribute__((no_sanitize_thread)) void operator()(const Range& range) const {
+    carry_out(*work, event, range.begin(), range.end());
+  }
+
+ private:
+  [[gnu::noinline]] static void carry_out(const Work& work, void* event, std::size_t first,
+                                          std::size_t last) {
+    const Task task{event};
+    work(first, last, tbb::this_task_arena::current_thread_index());
+  }
+};
+
 bool is_cancelled(const ParallelOptions& options) {
   return options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
 }
@@ -52,7 +73,7 @@ int thread_count(const ParallelOptions& options) {
 bool parallel_for(std::size_t count, const ParallelOptions& options,
                   const std::function<void(std::size_t, int)>& body) {
   std::atomic<std::size_t> done{0};
-  const auto run = [&](std::size_t first, std::size_t last, int slot) {
+  const Work run = [&](std::size_t first, std::size_t last, int slot) {
     for (std::size_t index = first; index < last && !is_cancelled(options); ++index) {
       body(index, slot);
       done.fetch_add(1, std::memory_order_relaxed);
@@ -62,19 +83,15 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
   if (threads == 1) {
     run(0, count, 0);
   } else {
-    // Unless told otherwise TBB has no more threads than the machine has cores, and complains when asked for more.
+    // Unless told otherwise TBB has no more threads than the machine has cores, and complains when asked for
+    // more.
     std::optional<tbb::global_control> more;
     if (threads > tbb::this_task_arena::max_concurrency())
       more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     ends_before(&arena);
     const AllTasks all{&arena};
-    arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const auto& range) {
-        const Task task{&arena};
-        run(range.begin(), range.end(), tbb::this_task_arena::current_thread_index());
-      });
-    });
+    arena.execute([&] { tbb::parallel_for(Range(0, count), Body{&run, &arena}); });
   }
   return done == count;
 }
