@@ -16,17 +16,14 @@ namespace {
 
 std::vector<Layer> layers_of(const std::string& text) {
   std::vector<Layer> layers;
-  for (std::size_t begin = 0;;) {
-    const auto end = text.find(',', begin);
-    const std::string name = text.substr(begin, end == std::string::npos ? end : end - begin);
+  for (const auto& name : split(text, ',')) {
     try {
       layers.push_back(layer_from_string(name));
     } catch (const InvalidInput& error) {
       throw UsageError(std::string("--layers: ") + error.what());
     }
-    if (end == std::string::npos) return layers;
-    begin = end + 1;
   }
+  return layers;
 }
 
 Axis chosen_axis(const std::string& name, const std::optional<std::string>& flag,
@@ -94,11 +91,8 @@ std::vector<std::string> plan_lines(const ChartRequest& request, const ChartPlan
 
 std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
                                         const ChartDescription& description) {
-  const auto path = data_path(arguments);
-  if (!arguments.json) return make_chart_writer(path, description);
-  const bool text = path == "-" || path.extension() == ".json" || path.string().starts_with("/dev/");
-  if (!text) throw UsageError("--json writes JSON: -o '" + path.string() + "' must end in .json");
-  return std::make_unique<JsonChartWriter>(path, description);
+  if (!arguments.json) return make_chart_writer(data_path(arguments), description);
+  return std::make_unique<JsonChartWriter>(json_path(arguments), description);
 }
 
 /// Hands the strips to the data file (the layers asked for) and to the figure (all of them).

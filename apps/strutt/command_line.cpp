@@ -1,10 +1,11 @@
 #include "command_line.hpp"
 
 #include <CLI/CLI.hpp>  // slow to compile: the only file that includes it
-#include <array>
-#include <string_view>
+#include <algorithm>
+#include <functional>
 
 #include "exit_code.hpp"
+#include "recorded_command.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/io/provenance.hpp"
 
@@ -52,47 +53,6 @@ Examples:
   printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.02\n' > scene.toml
   strutt portrait scene.toml --curves 10 --sections 20 -o sections.npz || test $? -eq 1
 )";
-
-const std::vector<std::string> kCommands{"chart", "stability", "motion", "period", "portrait", "normal-form"};
-
-// Flags that change neither the numbers nor how they are written, with the number of values they take.
-struct SilentFlag {
-  std::string_view name;
-  bool takes_value;
-};
-constexpr std::array<SilentFlag, 6> kSilentFlags{{{"--threads", true},
-                                                  {"-o", true},
-                                                  {"--output", true},
-                                                  {"--figure", true},
-                                                  {"--quiet", false},
-                                                  {"--force", false}}};
-
-std::string quoted(const std::string& word) {
-  constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@%+=:,./-";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string result = "'";
-  for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
-/// The command as recorded: the same for any number of threads and any place of the result.
-std::string recorded_command(int argc, const char* const* argv) {
-  std::string text = "strutt";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    bool silent = false;
-    for (const auto& flag : kSilentFlags) {
-      const bool attached =
-          word.starts_with(std::string(flag.name) + "=") || (flag.name == "-o" && word.starts_with("-o"));
-      if (word != flag.name && !attached) continue;
-      silent = true;
-      if (word == flag.name && flag.takes_value) ++i;
-      break;
-    }
-    if (!silent) text += " " + quoted(word);
-  }
-  return text;
-}
 
 /// The flags of every command, with or without a scene.
 void add_output(CLI::App& command, CommonArguments& arguments) {
@@ -185,10 +145,10 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
 }
 
 CLI::App* add_portrait(CLI::App& app, PortraitArguments& arguments) {
-  auto* command = app.add_subcommand("portrait", "phase portrait of a pendulum; sections of it if it is excited");
-  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text, const char* type) {
-    return command->add_option(flag, value, text)->type_name(type);
-  };
+  auto* command =
+      app.add_subcommand("portrait", "phase portrait of a pendulum; sections of it if it is excited");
+  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text,
+                       const char* type) { return command->add_option(flag, value, text)->type_name(type); };
   command
       ->add_option("scene", arguments.scene,
                    "scene file (TOML), - for standard input; without one: the free pendulum with alpha = 1")
@@ -206,9 +166,11 @@ CLI::App* add_portrait(CLI::App& app, PortraitArguments& arguments) {
   add("--starts", arguments.starts, "excited: CSV file with the columns angle, velocity", "IN.csv");
   add("--figure", arguments.figure, "draw the portrait as .png, .svg or .pdf", "FILE");
   command->footer(
-      std::string("The ending of -o FILE tells the format: .csv, .npz, .h5; .json with --json.\n"
-                  "Excited means: the scene has [support], [moment] or damping. The sections are one period of the\n"
-                  "excitation apart; a curve ends where the error bound of its angle exceeds 1e-6 rad (exit code 1).\n") +
+      std::string(
+          "The ending of -o FILE tells the format: .csv, .npz, .h5; .json with --json.\n"
+          "Excited means: the scene has [support], [moment] or damping. The sections are one period of the\n"
+          "excitation apart; a curve ends where the error bound of its angle exceeds 1e-6 rad (exit code "
+          "1).\n") +
       kPortraitExample + kExitCodes);
   return command;
 }
@@ -232,7 +194,8 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   auto* command = app.add_subcommand("period", "exact period of the free pendulum at an amplitude");
   command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
       ->type_name("SCENE");
-  add_common(*command, arguments, "largest relative error of the period", "exact", "5e-16 to 1e-1 (default 1e-15)");
+  add_common(*command, arguments, "largest relative error of the period", "exact",
+             "5e-16 to 1e-1 (default 1e-15)");
   command->add_option("--amplitude", arguments.amplitude, "largest angle, 0 to 3.141592653589793")
       ->type_name("RAD");
   command->add_option("--from-top", arguments.from_top, "pi - amplitude, 0 to pi")->type_name("RAD");
@@ -248,10 +211,17 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   return command;
 }
 
-std::string one_of_the_commands() {
-  std::string names;
-  for (const auto& command : kCommands) names += (names.empty() ? "" : ", ") + command;
-  return "the commands are " + names + " (see strutt --help)";
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::string one_of_the_commands(const CLI::App& app) {
+  std::string text;
+  for (const auto& name : command_names(app)) text += (text.empty() ? "" : ", ") + name;
+  return "the commands are " + text + " (see strutt --help)";
 }
 
 std::vector<std::string> flag_names(const CLI::App& command) {
@@ -278,13 +248,26 @@ std::vector<std::string> flag_names(const CLI::App& command) {
                                   : "; did you mean '" + close + "'?"));
 }
 
-[[noreturn]] void refuse_command(const std::vector<std::string>& extras) {
-  if (extras.empty()) throw UsageError("no command; " + one_of_the_commands());
+[[noreturn]] void refuse_command(const CLI::App& app) {
+  const auto extras = app.remaining();
+  if (extras.empty()) throw UsageError("no command; " + one_of_the_commands(app));
   const std::string& word = extras.front();
-  if (word.starts_with("-")) throw UsageError("unknown flag '" + word + "'; " + one_of_the_commands());
-  const std::string close = nearest(word, kCommands);
+  if (word.starts_with("-")) throw UsageError("unknown flag '" + word + "'; " + one_of_the_commands(app));
+  const std::string close = nearest(word, command_names(app));
   throw UsageError("unknown command '" + word + "'; " +
-                   (close.empty() ? one_of_the_commands() : "did you mean '" + close + "'?"));
+                   (close.empty() ? one_of_the_commands(app) : "did you mean '" + close + "'?"));
+}
+
+/// A command: what parses it, and what it was told.
+struct Command {
+  const CLI::App* parser;
+  CommonArguments* common;
+  std::function<Arguments()> arguments;
+};
+
+template <typename Told>
+Command command(CLI::App* (*add)(CLI::App&, Told&), CLI::App& app, Told& told) {
+  return {add(app, told), &told, [&told] { return Arguments(told); }};
 }
 
 }  // namespace
@@ -299,18 +282,16 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   StabilityArguments stability;
   MotionArguments motion;
   PeriodArguments period;
-  NormalFormArguments normal_form;
-  const CLI::App* chart_command = add_chart(app, chart);
-  const CLI::App* stability_command = add_stability(app, stability);
-  const CLI::App* motion_command = add_motion(app, motion);
-  const CLI::App* period_command = add_period(app, period);
   PortraitArguments portrait;
-  const CLI::App* portrait_command = add_portrait(app, portrait);
-  const CLI::App* normal_form_command = add_normal_form(app, normal_form);
+  NormalFormArguments normal_form;
+  const std::vector<Command> commands{
+      command(add_chart, app, chart),       command(add_stability, app, stability),
+      command(add_motion, app, motion),     command(add_period, app, period),
+      command(add_portrait, app, portrait), command(add_normal_form, app, normal_form)};
 
   const auto chosen = [&]() -> const CLI::App* {
-    const auto commands = app.get_subcommands();
-    return commands.empty() ? nullptr : commands.front();
+    const auto parsed = app.get_subcommands();
+    return parsed.empty() ? nullptr : parsed.front();
   };
   try {
     app.parse(argc, argv);
@@ -323,18 +304,13 @@ Arguments parse_command_line(int argc, const char* const* argv) {
     if (chosen() != nullptr && !chosen()->remaining().empty()) refuse(*chosen(), chosen()->remaining());
     throw UsageError(error.what());
   }
-  if (chosen() == nullptr) refuse_command(app.remaining());
+  if (chosen() == nullptr) refuse_command(app);
   const auto extras = app.remaining(true);
   if (!extras.empty()) refuse(*chosen(), extras);
-  const std::string command = recorded_command(argc, argv);
-  chart.command = stability.command = motion.command = period.command = portrait.command = normal_form.command = command;
-  if (chosen() == chart_command) return chart;
-  if (chosen() == stability_command) return stability;
-  if (chosen() == motion_command) return motion;
-  if (chosen() == period_command) return period;
-  if (chosen() == portrait_command) return portrait;
-  if (chosen() == normal_form_command) return normal_form;
-  refuse_command({});
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const Command& known) { return known.parser == chosen(); });
+  found->common->command = recorded_command(argc, argv);
+  return found->arguments();
 }
 
 }  // namespace strutt::app

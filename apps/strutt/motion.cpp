@@ -59,18 +59,12 @@ std::vector<double> times_of(const MotionArguments& arguments) {
   return times;
 }
 
-/// Does the closed form fit? Nothing but gravity may act.
-bool is_free(const Scene& scene, bool linear) {
-  return !linear && !scene.support && !scene.moment && scene.pendulum->damping == 0.0;
-}
-
 /// The method that auto stands for; throws UsageError if the one asked for does not fit.
 Method chosen_method(Method asked, const Scene& scene, bool linear) {
-  const bool free = is_free(scene, linear);
+  const bool free = !linear && is_free(scene);
   if (asked == Method::exact && !free) {
     throw UsageError(
-        "--method exact needs a free pendulum (no [support], [moment], damping, --linear); available are "
-        "auto, "
+        "--method exact needs a free pendulum (no [support], [moment], damping, --linear); available are auto, "
         "cvode, arkode");
   }
   return asked == Method::automatic && free ? Method::exact : asked;

@@ -78,7 +78,7 @@ ExitCode run(const NormalFormArguments& arguments) {
   const NumericTable table = read_table(arguments.points, {.required = {"alpha"}, .optional = term_names()});
   const std::vector<NormalForm> forms = compute(table);
   if (arguments.dry_run) {
-    print_text(fmt::format("# model: planar centres\n# points: {}\n# method: normal_form\n", forms.size()));
+    print_plan("planar centres", {fmt::format("points: {}", forms.size()), "method: normal_form"});
     return ExitCode::done;
   }
   Provenance provenance = make_provenance(arguments.command);

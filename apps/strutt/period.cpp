@@ -173,7 +173,7 @@ void print_plan(const std::optional<SceneFile>& scene, const Orbits& orbits, dou
   const std::vector<std::string> lines{fmt::format("points: {}", orbits.rows.size()), "method: exact",
                                        "tolerance: " + to_text(tolerance), "threads: 1"};
   if (scene) return app::print_plan(*scene, lines);
-  print_text(fmt::format("# model: free pendulum\n# {}\n", fmt::join(lines, "\n# ")));
+  app::print_plan("free pendulum", lines);
 }
 
 }  // namespace

@@ -32,10 +32,6 @@ struct Job {
   std::vector<MotionStart> starts;   // excited
 };
 
-bool is_excited(const Scene& scene) {
-  return scene.support || scene.moment || scene.pendulum->damping != 0.0;
-}
-
 int int_of(const char* flag, const std::optional<std::string>& text, int otherwise, std::uint64_t least,
            std::uint64_t most) {
   return text ? static_cast<int>(count_of(flag, *text, least, most)) : otherwise;
@@ -43,13 +39,8 @@ int int_of(const char* flag, const std::optional<std::string>& text, int otherwi
 
 std::vector<double> list_of(const std::string& flag, const std::string& text, const std::string& unit) {
   std::vector<double> values;
-  for (std::size_t begin = 0;;) {
-    const auto end = text.find(',', begin);
-    values.push_back(
-        quantity_of(flag, text.substr(begin, end == std::string::npos ? end : end - begin), unit));
-    if (end == std::string::npos) return values;
-    begin = end + 1;
-  }
+  for (const auto& part : split(text, ',')) values.push_back(quantity_of(flag, part, unit));
+  return values;
 }
 
 void refuse(const std::optional<std::string>& flag, const char* name, const char* why) {
@@ -108,7 +99,7 @@ Job job_of(const PortraitArguments& a) {
     if (!job.scene->scene.pendulum)
       throw FileError(job.scene->file, 0, 0, "portrait needs a scene with [pendulum]");
     job.pendulum = pendulum(job.scene->scene);
-    job.is_excited = is_excited(job.scene->scene);
+    job.is_excited = !is_free(job.scene->scene);
   } else if (!a.set.empty()) {
     throw UsageError("--set goes with a scene");
   }
@@ -158,9 +149,7 @@ std::vector<std::string> plan_lines(const Job& job) {
 
 void print_plan(const Job& job) {
   if (job.scene) return app::print_plan(*job.scene, plan_lines(job));
-  std::string text = "# model: free pendulum\n";
-  for (const auto& line : plan_lines(job)) text += "# " + line + "\n";
-  print_text(text);
+  app::print_plan("free pendulum", plan_lines(job));
 }
 
 Provenance provenance_of(const PortraitArguments& a, const Job& job) {

@@ -33,12 +33,8 @@ DataTable table_of(const std::vector<PhaseCurve>& curves, const std::string& tit
 }  // namespace
 
 PortraitOutput::PortraitOutput(const PortraitArguments& arguments, const PortraitDescription& description)
-    : path_(data_path(arguments)), description_(description) {
-  if (!arguments.json) {
-    columns_.emplace(path_);
-  } else if (path_ != "-" && path_.extension() != ".json" && !path_.string().starts_with("/dev/")) {
-    throw UsageError("--json writes JSON: -o '" + path_.string() + "' must end in .json");
-  }
+    : path_(arguments.json ? json_path(arguments) : data_path(arguments)), description_(description) {
+  if (!arguments.json) columns_.emplace(path_);
   if (!arguments.figure) return;
   figure_path_ = *arguments.figure;
   figure_.emplace(figure_path_);

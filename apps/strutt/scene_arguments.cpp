@@ -13,17 +13,6 @@
 namespace strutt::app {
 namespace {
 
-/// Splits at every `separator`.
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0;;) {
-    const auto end = text.find(separator, begin);
-    parts.push_back(text.substr(begin, end == std::string::npos ? end : end - begin));
-    if (end == std::string::npos) return parts;
-    begin = end + 1;
-  }
-}
-
 /// Runs `body`, whose complaints are about a flag.
 template <typename Body>
 auto about_flag(const std::string& flag, const Body& body) {
@@ -53,6 +42,16 @@ void check_equation(const SceneFile& file) {
 }
 
 }  // namespace
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0;;) {
+    const auto end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end == std::string::npos ? end : end - begin));
+    if (end == std::string::npos) return parts;
+    begin = end + 1;
+  }
+}
 
 SceneFile load_scene(const CommonArguments& arguments) {
   SceneFile file = read_scene(arguments.scene);
@@ -135,6 +134,13 @@ std::filesystem::path data_path(const CommonArguments& arguments) {
   return arguments.output && !arguments.output->empty() ? *arguments.output : "-";
 }
 
+std::filesystem::path json_path(const CommonArguments& arguments) {
+  const auto path = data_path(arguments);
+  const bool text = path == "-" || path.extension() == ".json" || path.string().starts_with("/dev/");
+  if (!text) throw UsageError("--json writes JSON: -o '" + path.string() + "' must end in .json");
+  return path;
+}
+
 std::filesystem::path row_path(const CommonArguments& arguments) {
   const auto path = data_path(arguments);
   const std::string ending = path.extension().string();
@@ -142,7 +148,8 @@ std::filesystem::path row_path(const CommonArguments& arguments) {
     if (ending == other)
       throw UsageError("-o '" + path.string() + "': this command writes CSV, or JSON with --json");
   }
-  if (arguments.json && ending == ".csv") throw UsageError("--json does not write CSV: -o '" + path.string() + "'");
+  if (arguments.json && ending == ".csv")
+    throw UsageError("--json does not write CSV: -o '" + path.string() + "'");
   if (!arguments.json && ending == ".json") throw UsageError("-o '" + path.string() + "' goes with --json");
   return path;
 }
@@ -173,10 +180,19 @@ void require_memory(const CommonArguments& arguments, double bytes) {
                   budget / 1e9));
 }
 
-void print_plan(const SceneFile& scene, const std::vector<std::string>& lines) {
-  std::string text = "# model: " + describe(scene.scene) + "\n";
+bool is_free(const Scene& scene) {
+  return !scene.support && !scene.moment && scene.pendulum && scene.pendulum->damping == 0.0;
+}
+
+void print_plan(const std::string& model, const std::vector<std::string>& lines, const SceneFile* scene) {
+  std::string text = "# model: " + model + "\n";
   for (const auto& line : lines) text += "# " + line + "\n";
-  print_text(text + "\n" + to_toml(scene));
+  if (scene != nullptr) text += "\n" + to_toml(*scene);
+  print_text(text);
+}
+
+void print_plan(const SceneFile& scene, const std::vector<std::string>& lines) {
+  print_plan(describe(scene.scene), lines, &scene);
 }
 
 }  // namespace strutt::app

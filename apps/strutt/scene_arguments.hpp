@@ -12,6 +12,9 @@
 
 namespace strutt::app {
 
+/// Splits at every `separator`.
+std::vector<std::string> split(const std::string& text, char separator);
+
 /// The scene of the command line with every --set applied. Throws FileError for what is wrong in the file,
 /// UsageError for what is wrong in --set.
 SceneFile load_scene(const CommonArguments& arguments);
@@ -46,6 +49,10 @@ Axis axis_of(const std::string& flag, const std::string& text, const Scene& scen
 /// Where the data go: `-` for standard output.
 std::filesystem::path data_path(const CommonArguments& arguments);
 
+/// The same where JSON is written instead of a format that the ending tells. Throws UsageError for another
+/// ending.
+std::filesystem::path json_path(const CommonArguments& arguments);
+
 /// The same for a command that writes rows, CSV or JSON. Throws UsageError for the ending of another format.
 std::filesystem::path row_path(const CommonArguments& arguments);
 
@@ -59,7 +66,12 @@ void warn_about(const CommonArguments& arguments, const Scene& scene);
 /// Throws MemoryBudgetExceeded if `bytes` are more than half of the memory, unless --force was given.
 void require_memory(const CommonArguments& arguments, double bytes);
 
-/// --dry-run: scene and model, then the lines of the plan, on standard output.
+/// A pendulum on which nothing but gravity acts?
+bool is_free(const Scene& scene);
+
+/// --dry-run: the model, the lines of the plan, and the scene if there is one, on standard output.
+void print_plan(const std::string& model, const std::vector<std::string>& lines,
+                const SceneFile* scene = nullptr);
 void print_plan(const SceneFile& scene, const std::vector<std::string>& lines);
 
 }  // namespace strutt::app

@@ -25,6 +25,11 @@ Monodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equ
   return better;
 }
 
+[[noreturn]] void refuse_exact() {
+  throw InvalidInput(
+      "method exact needs a piecewise-constant coefficient; use auto, propagator, arkode or cvode");
+}
+
 }  // namespace
 
 void MonodromyOptions::validate() const {
@@ -33,6 +38,25 @@ void MonodromyOptions::validate() const {
     throw InvalidInput("method", to_string(method),
                        "one of auto, propagator, exact, arkode, cvode for a monodromy matrix");
   }
+}
+
+Method method_for(const HillEquation& equation, Method asked) {
+  const bool closed_form = equation.coefficient.is_piecewise_constant();
+  if (asked == Method::automatic) return closed_form ? Method::exact : Method::propagator;
+  if (asked == Method::exact && !closed_form) refuse_exact();
+  MonodromyOptions{.method = asked}.validate();
+  return asked;
+}
+
+Method method_for(const LinearPeriodicSystem&, Method asked) {
+  if (asked == Method::automatic) return Method::arkode;
+  if (asked == Method::exact) refuse_exact();
+  if (asked == Method::propagator) {
+    throw InvalidInput(
+        "method propagator needs a system of one degree of freedom; use auto, arkode or cvode");
+  }
+  MonodromyOptions{.method = asked}.validate();
+  return asked;
 }
 
 struct MonodromyEngine::Workspace : PropagatorPool {};
@@ -45,26 +69,16 @@ MonodromyEngine& MonodromyEngine::operator=(MonodromyEngine&&) noexcept = defaul
 Monodromy MonodromyEngine::compute(const HillEquation& equation, const MonodromyOptions& options) {
   equation.validate();
   options.validate();
-  const bool closed_form = equation.coefficient.is_piecewise_constant();
-  if (options.method == Method::exact && !closed_form) {
-    throw InvalidInput(
-        "method exact needs a piecewise-constant coefficient; use auto, propagator, arkode or cvode");
-  }
-  if (options.method != Method::automatic)
-    return hill_monodromy(*workspace_, equation, options.method, options);
-  if (closed_form) return hill_monodromy(*workspace_, equation, Method::exact, options);
-  return automatic_hill_monodromy(*workspace_, equation, options);
+  const Method method = method_for(equation, options.method);
+  if (options.method == Method::automatic && method == Method::propagator)
+    return automatic_hill_monodromy(*workspace_, equation, options);
+  return hill_monodromy(*workspace_, equation, method, options);
 }
 
 Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const MonodromyOptions& options) {
   system.validate();
   options.validate();
-  if (options.method == Method::exact || options.method == Method::propagator) {
-    throw InvalidInput("method", to_string(options.method),
-                       "auto, arkode or cvode for a system of several degrees of freedom");
-  }
-  const Method method = options.method == Method::automatic ? Method::arkode : options.method;
-  return system_monodromy(*workspace_, system, method, options);
+  return system_monodromy(*workspace_, system, method_for(system, options.method), options);
 }
 
 }  // namespace strutt

@@ -41,14 +41,13 @@ void write_matrix(Stability& result, const Monodromy& monodromy, const std::vect
   }
 }
 
-Stability begin(const Monodromy& monodromy, double period) {
+Stability begin(const Monodromy& monodromy) {
   Stability result;
   result.error = monodromy.error;
   result.method = monodromy.method;
   result.outcome = monodromy.outcome;
   result.cost = monodromy.cost;
   result.estimate_cost = monodromy.estimate_cost;
-  (void)period;
   return result;
 }
 
@@ -68,7 +67,7 @@ void finish(Stability& result, const Margin& margin, double growth, double perio
 
 Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts) {
   const double period = equation.period();
-  auto result = begin(monodromy, period);
+  auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;
   const auto discriminant = discriminant_gap(monodromy);
   const double h = monodromy.half_damping;
@@ -83,7 +82,7 @@ Stability assess(const HillEquation& equation, const Monodromy& monodromy, const
 }
 
 Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts) {
-  auto result = begin(monodromy, system.period);
+  auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;
   try {
     const auto proportional = system.proportional_damping();
@@ -116,24 +115,10 @@ std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system)
 }
 
 Method method_for(const LinearModel& model, Method asked) {
-  std::optional<HillEquation> equation;
-  if (const auto* hill = std::get_if<HillEquation>(&model)) {
-    equation = *hill;
-  } else {
-    equation = as_hill_equation(std::get<LinearPeriodicSystem>(model));
-  }
-  const bool closed_form = equation && equation->coefficient.is_piecewise_constant();
-  if (asked == Method::automatic) {
-    return closed_form ? Method::exact : equation ? Method::propagator : Method::arkode;
-  }
-  if (asked == Method::exact && !closed_form) {
-    throw InvalidInput("method exact needs a piecewise-constant coefficient; use auto, propagator, arkode or cvode");
-  }
-  if (asked == Method::propagator && !equation) {
-    throw InvalidInput("method propagator needs a system of one degree of freedom; use auto, arkode or cvode");
-  }
-  MonodromyOptions{.method = asked}.validate();
-  return asked;
+  if (const auto* equation = std::get_if<HillEquation>(&model)) return method_for(*equation, asked);
+  const auto& system = std::get<LinearPeriodicSystem>(model);
+  if (const auto equation = as_hill_equation(system)) return method_for(*equation, asked);
+  return method_for(system, asked);
 }
 
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options,

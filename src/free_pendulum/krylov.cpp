@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "strutt/free_pendulum/elliptic.hpp"
 
 namespace strutt {
 namespace {
@@ -12,16 +13,6 @@ constexpr double kSqrt8 = 2.0 * std::numbers::sqrt2;
 // sqrt(6) = high + low to more than 100 bits.
 constexpr double kSqrt6 = 2.449489742783178;
 constexpr double kSqrt6Low = 2.168616518103246e-16;
-
-double arithmetic_geometric_mean(double a, double b) {
-  // Converges quadratically: the first eight steps take even b/a = 1e-300 to the last bit or close to it.
-  for (int i = 0; i < 16 && a != b; ++i) {
-    const double mean = 0.5 * (a + b);
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return a;
-}
 
 void require_in_range(KrylovVariant variant, double amplitude) {
   const double limit = krylov_limit(variant);

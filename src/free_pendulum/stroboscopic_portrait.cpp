@@ -5,6 +5,7 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
+#include "strutt/free_pendulum/energy.hpp"
 
 namespace strutt {
 namespace {
@@ -27,11 +28,6 @@ double section_period(const PhysicalPendulum& pendulum, const Excitation* suppor
 double wrapped(double angle, double half) {
   const double result = std::remainder(angle, 2.0 * half);
   return result == half ? -half : result;
-}
-
-double separatrix_excess(const MotionStart& start, double alpha) {
-  const double rate = start.velocity / alpha, twice_cosine = 2.0 * std::cos(start.angle / 2.0);
-  return (rate - twice_cosine) * (rate + twice_cosine);
 }
 
 /// The system, and where the sections are.
@@ -71,7 +67,8 @@ Followed follow(const Strobe& strobe, const MotionStart& start) {
     result.cost += motion.estimate_cost;
   }
   const double half = window_half_width(strobe.options.cells);
-  result.curve = {CurveKind::section, separatrix_excess(start, strobe.pendulum.alpha()), {}};
+  const EnergyIntegral energy = energy_integral(start.angle, start.velocity / strobe.pendulum.alpha());
+  result.curve = {CurveKind::section, energy.separatrix_excess, {}};
   result.curve.points.push_back({wrapped(start.angle, half), start.velocity});
   for (const MotionPoint& p : motion.points) {
     if (p.outcome != Outcome::converged) break;

@@ -51,6 +51,12 @@ struct Monodromy {
   IntegrationCost estimate_cost;      ///< of those that gave the error
 };
 
+/// The method that a computation begins with when `asked` for. Method::automatic: `exact` for a piecewise-constant
+/// coefficient, `propagator` for other Hill equations, `arkode` for systems. Throws InvalidInput if the one asked for
+/// does not fit: `exact` needs a piecewise-constant Hill equation, `propagator` a Hill equation.
+Method method_for(const HillEquation& equation, Method asked);
+Method method_for(const LinearPeriodicSystem& system, Method asked);
+
 /// Computes monodromy matrices one after the other, reusing its integrators. Not thread-safe: one per thread.
 /// Results do not depend on what was computed before.
 class MonodromyEngine {

@@ -43,8 +43,7 @@ Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy,
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options = {},
                   const StabilityParts& parts = {});
 
-/// The method that `analyse` begins with when `asked` for. Throws InvalidInput if it does not fit the model: `exact` needs a
-/// Hill equation with a piecewise-constant coefficient, `propagator` a Hill equation.
+/// The method that `analyse` begins with when `asked` for; throws InvalidInput if it does not fit (monodromy.hpp).
 Method method_for(const LinearModel& model, Method asked);
 
 /// The Hill equation that a system with one degree of freedom, constant damping c >= 0 is; nothing otherwise.
