@@ -45,6 +45,13 @@ BoundedMatrix restore_damping(const BoundedMatrix& undamped, double half_damping
   return result;
 }
 
+Monodromy without_result(Method method, Outcome outcome) {
+  Monodromy result;
+  result.method = method;
+  result.outcome = outcome;
+  return result;
+}
+
 double scaled_error(const BoundedMatrix& matrix) {
   const double largest_error = std::max(matrix.error.maxCoeff(), matrix.error.trace());
   const double largest = matrix.value.mantissa.cwiseAbs().maxCoeff();

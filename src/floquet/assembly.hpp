@@ -18,6 +18,9 @@ BoundedMatrix period_from_half(const std::vector<BoundedMatrix>& half, std::size
 /// M = exp(-h) L N L^-1 with slope = c/(2 kappa); see Monodromy.
 BoundedMatrix restore_damping(const BoundedMatrix& undamped, double half_damping, double slope);
 
+/// A computation that ended before it had anything to show.
+Monodromy without_result(Method method, Outcome outcome);
+
 /// Monodromy::error of a matrix.
 double scaled_error(const BoundedMatrix& matrix);
 

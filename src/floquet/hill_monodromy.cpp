@@ -127,6 +127,7 @@ Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Met
   // into rounding.
   const bool integrated = method == Method::arkode || method == Method::cvode;
   const auto segments = integrated ? subdivided(y.pieces, y.w) : y.pieces;
+  if (segments.empty()) return without_result(method, Outcome::step_limit);
   const double coefficient_error =
       evaluation_error(equation) + (y.centre ? equation.coefficient.asymmetry(*y.centre) : 0.0);
   const auto propagators = [&](double local_tolerance) {

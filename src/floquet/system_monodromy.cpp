@@ -5,6 +5,7 @@
 
 #include "floquet/assembly.hpp"
 #include "floquet/propagators.hpp"
+#include "floquet/segments.hpp"
 
 namespace strutt {
 namespace {
@@ -12,61 +13,100 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kUnit = 0x1p-53;
+constexpr double kRadians = 16.0;  // that a solution turns by at most in one part of the period
+
+/// q'' + c q' + mass^-1 (C - c mass) q' + mass^-1 K q = 0 in canonical time, its proportional part c split
+/// off.
+class Undamped {
+ public:
+  explicit Undamped(const LinearPeriodicSystem& system)
+      : system_(system),
+        unit_(system.period / (2.0 * pi)),
+        inverse_mass_(system.mass.inverse()),
+        stiffness_(system.mass),
+        damping_(system.mass),
+        scaled_(system.mass) {
+    const auto proportional = system.proportional_damping();
+    if (proportional && *proportional > 0.0) c_ = *proportional * unit_;
+    general_damping_ = system.has_damping() && c_ == 0.0;
+  }
+
+  double unit() const { return unit_; }  ///< of canonical time
+  double damping() const { return c_; }
+
+  /// Of all columns of [q; q'].
+  void derivative(double theta, StateView y, StateOut dydt) {
+    const int d = system_.degrees_of_freedom(), n = system_.states();
+    system_.stiffness.evaluate(theta, stiffness_);
+    scaled_.noalias() = inverse_mass_ * stiffness_;
+    scaled_ *= unit_ * unit_;
+    scaled_.diagonal().array() -= 0.25 * c_ * c_;
+    const auto phi = y.reshaped(n, n);
+    auto rate = dydt.reshaped(n, n);
+    rate.topRows(d) = phi.bottomRows(d);
+    rate.bottomRows(d).noalias() = -scaled_ * phi.topRows(d);
+    if (!general_damping_) return;
+    system_.damping.evaluate(theta, damping_);
+    scaled_.noalias() = inverse_mass_ * damping_;
+    rate.bottomRows(d).noalias() -= unit_ * scaled_ * phi.bottomRows(d);
+  }
+
+  /// Upper bound of how fast a solution turns.
+  double radians_per_phase() const {
+    const double size = inverse_mass_.cwiseAbs().rowwise().sum().maxCoeff() * unit_;
+    const double bound = size * system_.stiffness.bound() * unit_ + 0.25 * c_ * c_;
+    return std::sqrt(bound) + (general_damping_ ? size * system_.damping.bound() : 0.0);
+  }
+
+  int highest_order() const {
+    int highest = 1;
+    for (const auto& h : system_.stiffness.harmonics) highest = std::max(highest, h.order);
+    for (const auto& h : system_.damping.harmonics) highest = std::max(highest, h.order);
+    return highest;
+  }
+
+ private:
+  const LinearPeriodicSystem& system_;
+  double unit_;
+  double c_ = 0.0;
+  bool general_damping_ = false;
+  Eigen::MatrixXd inverse_mass_, stiffness_, damping_, scaled_;
+};
+
+Monodromy put_together(const Undamped& y, int states, const std::vector<BoundedMatrix>& factors) {
+  Monodromy result;
+  result.kappa = 1.0 / y.unit();
+  result.half_damping = y.damping() * pi;
+  result.undamped = ordered_product(factors, states);
+  result.matrix = restore_damping(result.undamped, result.half_damping, 0.5 * y.damping());
+  return result;
+}
 
 }  // namespace
 
 Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
                            const MonodromyOptions& options) {
-  const int d = system.degrees_of_freedom(), n = system.states();
-  const double unit = system.period / (2.0 * pi);  // of canonical time
-  // q'' + c q' + mass^-1 (C - c mass) q' + mass^-1 K q = 0 with the proportional part c split off
-  const auto proportional = system.proportional_damping();
-  const double c = proportional && *proportional > 0.0 ? *proportional * unit : 0.0;
-  const bool general_damping = system.has_damping() && c == 0.0;
-  const Eigen::MatrixXd inverse_mass = system.mass.inverse();
-  Eigen::MatrixXd stiffness(d, d), damping(d, d), scaled(d, d);
-
-  const RightHandSide f = [&](double theta, StateView y, StateOut dydt) {
-    system.stiffness.evaluate(theta, stiffness);
-    scaled.noalias() = inverse_mass * stiffness;
-    scaled *= unit * unit;
-    scaled.diagonal().array() -= 0.25 * c * c;
-    const auto phi = y.reshaped(n, n);
-    auto rate = dydt.reshaped(n, n);
-    rate.topRows(d) = phi.bottomRows(d);
-    rate.bottomRows(d).noalias() = -scaled * phi.topRows(d);
-    if (!general_damping) return;
-    system.damping.evaluate(theta, damping);
-    scaled.noalias() = inverse_mass * damping;
-    rate.bottomRows(d).noalias() -= unit * scaled * phi.bottomRows(d);
-  };
-  const double size = inverse_mass.cwiseAbs().rowwise().sum().maxCoeff() * unit;
-  const double bound = size * system.stiffness.bound() * unit + 0.25 * c * c;
-  const double damping_bound = general_damping ? size * system.damping.bound() : 0.0;
-  const double radians_per_phase = std::sqrt(bound) + damping_bound;
-  int highest = 1;
-  for (const auto& h : system.stiffness.harmonics) highest = std::max(highest, h.order);
-  for (const auto& h : system.damping.harmonics) highest = std::max(highest, h.order);
+  Undamped y(system);
+  const int n = system.states(), highest = y.highest_order();
+  const double rate = y.radians_per_phase();
   const double coefficient_error = (16.0 + 2.0 * pi * highest) * kUnit;
-  const auto parts = static_cast<int>(std::clamp(std::ceil(2.0 * pi * radians_per_phase / 16.0), 1.0, 1e6));
+  const double needed = std::max(std::ceil(2.0 * pi * rate / kRadians), 1.0);
+  if (!(needed <= kMostSegments)) return without_result(method, Outcome::step_limit);
+  const auto parts = static_cast<int>(needed);
 
-  const auto put_together = [&](const std::vector<BoundedMatrix>& factors) {
-    Monodromy result;
-    result.kappa = 1.0 / unit;
-    result.half_damping = c * pi;
-    result.undamped = ordered_product(factors, n);
-    result.matrix = restore_damping(result.undamped, result.half_damping, 0.5 * c);
-    return result;
+  const RightHandSide f = [&](double theta, StateView state, StateOut dydt) {
+    y.derivative(theta, state, dydt);
   };
   Monodromy result = tighten(method, options.tolerance, [&](double local_tolerance) {
     Propagators propagators;
     auto& integrator = pool.integrator(n, method);
     for (int j = 0; j < parts; ++j) {
       const double from = 2.0 * pi * j / parts, to = 2.0 * pi * (j + 1) / parts;
-      propagators.append(integrator.propagate(f, from, to, radians_per_phase * (to - from), coefficient_error,
+      propagators.append(integrator.propagate(f, from, to, rate * (to - from), coefficient_error,
                                               propagator_options(options, local_tolerance, highest)));
     }
-    Monodromy attempt = combined(propagators, put_together);
+    Monodromy attempt =
+        combined(propagators, [&](const auto& factors) { return put_together(y, n, factors); });
     attempt.error = scaled_error(attempt.matrix);
     return attempt;
   });

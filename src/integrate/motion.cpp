@@ -44,6 +44,11 @@ constexpr double kLinearLimit = 0.25;
 // The least part of a segment that is integrated; over less, Euler's step is exact to rounding.
 constexpr double kNoStep = 1e-12;
 
+// The shares of a segment that one step of the two runs may take at most, and so the steps a segment costs at
+// least.
+constexpr double kMainSteps = 3.0;
+constexpr double kCheckSteps = 2.0;
+
 constexpr double kTightest = 1e-14;
 constexpr double kLoosest = 1e-4;
 constexpr int kPasses = 6;
@@ -86,6 +91,11 @@ class Pass {
   void record(MotionPoint& point, double half_turns, const Eigen::Vector2d& state, double error) const;
   Eigen::Vector2d slope(const Segment& segment) const;
   void rebase();
+  /// Whether the steps left can lead to t, so that no minute is spent on the way to where none can.
+  bool within_reach(const Segment& segment, double t) const {
+    const double segments = equation_.segments_in(equation_.offset(segment, equation_.phase(t)));
+    return (kMainSteps + kCheckSteps) * segments <= static_cast<double>(steps_left());
+  }
   long steps_left() const { return max_steps_ - cost_.steps - estimate_cost_.steps; }
 
   const MotionEquation& equation_;
@@ -127,6 +137,7 @@ Outcome Pass::run(const MotionStart& start, const std::vector<std::size_t>& orde
     }
     const Outcome outcome = cross(segment, offsets, targets);
     if (outcome != Outcome::converged) return outcome;
+    if (next < order.size() && !within_reach(segment, points[order[next]].t)) return Outcome::step_limit;
     segment = equation_.next(segment);
   }
   return Outcome::converged;
@@ -138,7 +149,8 @@ Trajectory Pass::integrate(Integrator& integrator, const Segment& segment, const
   options.relative_tolerance = tolerance_;
   options.absolute_tolerance = options.relative_tolerance * size;
   // Never over a whole wave of the coefficients at once.
-  options.max_step = std::min(segment.length / (is_check ? 2.0 : 3.0), 6.0 / equation_.highest_order());
+  options.max_step =
+      std::min(segment.length / (is_check ? kCheckSteps : kMainSteps), 6.0 / equation_.highest_order());
   options.max_steps = std::max(steps_left(), 1L);
   options.cancel = options_.cancel;
   integrator.set_options(options);

@@ -109,6 +109,12 @@ double MotionEquation::offset(const Segment& s, const Phase& phase) const {
   return turns + (((phase.high - pieces_[s.piece].begin) - product) + low);
 }
 
+double MotionEquation::segments_in(double phase) const {
+  double in_a_turn = 0.0;
+  for (const auto& piece : pieces_) in_a_turn += piece.parts;
+  return std::floor(phase / (2.0 * pi)) * in_a_turn;
+}
+
 double MotionEquation::radians(const Segment& s) const { return s.length * (kappa_ + damping_); }
 
 void MotionEquation::derivative(const Segment& s, double half_turns, double offset, StateView y,

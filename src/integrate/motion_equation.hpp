@@ -55,6 +55,9 @@ class MotionEquation {
   /// How far the phase lies behind the beginning of the segment.
   double offset(const Segment& segment, const Phase& phase) const;
 
+  /// Lower bound of the number of segments in `phase` radians; a whole number of turns is exact.
+  double segments_in(double phase) const;
+
   /// Upper bound, in radians, of how far the motion turns in a segment.
   double radians(const Segment& segment) const;
 

@@ -1,4 +1,5 @@
-// Routes to the monodromy matrix against each other and against closed forms, and the cost of the computation.
+// Routes to the monodromy matrix against each other and against closed forms, and the cost of the
+// computation.
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,9 +17,9 @@ constexpr double kTolerance = 1e-10;
 
 /// Equations of every kind: even, odd, no symmetry, damped, growing, fast, jumping.
 std::vector<HillEquation> zoo() {
-  std::vector<HillEquation> result = {
-      mathieu_delta_epsilon(1.0, 0.5), mathieu_delta_epsilon(0.3, 0.0), mathieu_delta_epsilon(-0.4, 2.0),
-      mathieu_a_q(3.0, 1.5, 0.1), mathieu_delta_epsilon(40.0, 15.0, 0.02)};
+  std::vector<HillEquation> result = {mathieu_delta_epsilon(1.0, 0.5), mathieu_delta_epsilon(0.3, 0.0),
+                                      mathieu_delta_epsilon(-0.4, 2.0), mathieu_a_q(3.0, 1.5, 0.1),
+                                      mathieu_delta_epsilon(40.0, 15.0, 0.02)};
   const auto rod = PhysicalPendulum::uniform_rod(1.0, 1.0, 9.81, 0.1);
   const auto sine = sinusoidal_support(0.1, 7.0, 0.4), square = square_acceleration_support(0.05, 20.0, 1.0);
   result.push_back(linearise(rod, Equilibrium::hanging, &sine).equation);
@@ -28,7 +29,9 @@ std::vector<HillEquation> zoo() {
   return result;
 }
 
-Eigen::Matrix2d plain(const Monodromy& m) { return m.matrix.value.mantissa * std::ldexp(1.0, static_cast<int>(m.matrix.value.exponent)); }
+Eigen::Matrix2d plain(const Monodromy& m) {
+  return m.matrix.value.mantissa * std::ldexp(1.0, static_cast<int>(m.matrix.value.exponent));
+}
 
 /// Tolerance of a comparison: the bounds of both sides, in absolute terms.
 double allowance(const Monodromy& m) { return m.error * std::max(1.0, plain(m).cwiseAbs().maxCoeff()); }
@@ -58,8 +61,10 @@ TEST_CASE("Half-period and whole-period routes agree", "[floquet][law]") {
   for (const double epsilon : {0.5, 3.0}) {
     const auto even = mathieu_delta_epsilon(1.3, epsilon);
     auto broken = even;
-    broken.coefficient = PeriodicFunction::fourier(1.3, {{1, epsilon, 0.0}, {2, 0.0, 1e-13}, {3, 1e-13, 0.0}});
-    const auto a = engine.compute(even, {.tolerance = kTolerance}), b = engine.compute(broken, {.tolerance = kTolerance});
+    broken.coefficient =
+        PeriodicFunction::fourier(1.3, {{1, epsilon, 0.0}, {2, 0.0, 1e-13}, {3, 1e-13, 0.0}});
+    const auto a = engine.compute(even, {.tolerance = kTolerance}),
+               b = engine.compute(broken, {.tolerance = kTolerance});
     CHECK(a.half.has_value());
     CHECK_FALSE(b.half.has_value());
     CHECK((plain(a) - plain(b)).cwiseAbs().maxCoeff() <= allowance(a) + allowance(b) + 1e-11);
@@ -72,7 +77,8 @@ TEST_CASE("Constant coefficients have the closed form, whatever the method", "[f
   const double s = std::sqrt(std::abs(delta)), T = 2.0 * std::numbers::pi;
   const double expected = delta >= 0.0 ? 2.0 * std::cos(s * T) : 2.0 * std::cosh(s * T);
   for (const auto method : {Method::automatic, Method::arkode, Method::cvode}) {
-    const auto m = engine.compute(mathieu_delta_epsilon(delta, 0.0), {.tolerance = kTolerance, .method = method});
+    const auto m =
+        engine.compute(mathieu_delta_epsilon(delta, 0.0), {.tolerance = kTolerance, .method = method});
     CHECK(std::abs(plain(m).trace() - expected) <= allowance(m));
     CHECK(m.method == (method == Method::automatic ? Method::exact : method));
   }
@@ -128,6 +134,24 @@ TEST_CASE("Misuse is refused, trouble is an outcome", "[floquet][error]") {
   const auto cancelled = engine.compute(mathieu_delta_epsilon(1, 1), {.cancel = &cancel});
   CHECK(cancelled.outcome == Outcome::cancelled);
   CHECK(std::isinf(cancelled.error));
+}
+
+TEST_CASE("What would take too many steps ends at once, as an outcome", "[floquet][error][extreme]") {
+  MonodromyEngine engine;
+  const auto far = [](double delta, double epsilon) { return mathieu_delta_epsilon(delta, epsilon, 0.1); };
+  for (const auto method : {Method::automatic, Method::arkode, Method::cvode}) {
+    for (const auto& equation : {far(1e20, 0.5), far(-1e20, 0.5), far(1e308, 1.0), far(1.0, 1e300)}) {
+      const auto result = engine.compute(equation, {.method = method});
+      CHECK(result.outcome == Outcome::step_limit);
+      CHECK(std::isinf(result.error));
+      CHECK(result.cost.right_hand_sides == 0);
+    }
+  }
+  LinearPeriodicSystem system;
+  system.period = 2.0 * std::numbers::pi;
+  system.mass = Eigen::Matrix2d::Identity();
+  system.stiffness.mean = 1e300 * Eigen::Matrix2d::Identity();
+  CHECK(engine.compute(system).outcome == Outcome::step_limit);
 }
 
 TEST_CASE("The bound holds where the coefficient turns faster than the solution", "[floquet][monodromy]") {

@@ -236,6 +236,14 @@ TEST_CASE("motions that cannot be computed end as outcomes", "[integrate][motion
   CHECK(std::isnan(late.points[1].angle));
   CHECK(late.points[1].error == std::numeric_limits<double>::infinity());
 
+  // What no number of steps within the limit can reach is not even begun.
+  for (const double t : {1e12, 1e300, 1e308}) {
+    const auto never = integrate_motion(kRod, &wild, nullptr, {0.1, 0.0}, std::array{0.1, t}, {});
+    CHECK(never.points[0].outcome == Outcome::converged);
+    CHECK(never.points[1].outcome == Outcome::step_limit);
+    CHECK(never.cost.steps < 1000);
+  }
+
   const std::atomic<bool> cancel{true};
   const auto stopped =
       integrate_motion(kRod, nullptr, nullptr, {1.0, 0.0}, std::array{1.0}, {.cancel = &cancel});
