@@ -1,5 +1,6 @@
 #!/bin/sh
-# Usage: make.sh [PROGRAM]. Draws the pictures of docs/gallery.md again, one for each scene of docs/examples.
+# Usage: make.sh [PROGRAM]. Draws the pictures of docs/gallery.md again, one for each scene of docs/examples but that
+# of docs/portrait.md, which is not in the gallery.
 # Needs pngquant (Debian package of that name), which brings a picture to a third of its size.
 set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
@@ -7,6 +8,7 @@ program=${1:-$here/../../build/release/strutt}
 command -v pngquant > /dev/null || { echo "make.sh: pngquant is missing" >&2; exit 1; }
 
 for scene in "$here"/../examples/*.toml; do
+  case $scene in */portrait_*) continue ;; esac
   picture=$here/$(basename "$scene" .toml).png
   code=0  # 1: done, but some cells are unresolved
   "$program" chart "$scene" -o /dev/null --figure "$picture" || code=$?
