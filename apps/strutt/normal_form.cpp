@@ -84,7 +84,7 @@ ExitCode run(const NormalFormArguments& arguments) {
   Provenance provenance = make_provenance(arguments.command);
   provenance.emplace_back("model", "y1' = alpha y2 + f1, y2' = -alpha y1 + f2");
   provenance.emplace_back("method", "normal_form");
-  RowWriter writer(data_path(arguments), arguments.json, columns_of(table), provenance);
+  RowWriter writer(row_path(arguments), arguments.json, columns_of(table), provenance);
   bool converged = true;
   for (std::size_t i = 0; i < forms.size(); ++i) {
     std::vector<Cell> row(table.rows[i].begin(), table.rows[i].end());

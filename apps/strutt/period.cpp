@@ -77,7 +77,9 @@ const Input& input_of(const NumericTable& table) {
 /// Checks every row before anything is written.
 Orbits orbits_of_file(const std::string& path, const Eigenfrequency& alpha) {
   NumericTable table =
-      read_table(path, {.required = {}, .optional = {"amplitude", "from_top", "separatrix_excess", "alpha"}});
+      read_table(path, {.required = {},
+                        .optional = {"amplitude", "from_top", "separatrix_excess", "alpha"},
+                        .units = {{"amplitude", "rad"}, {"from_top", "rad"}, {"alpha", "rad/s"}}});
   Orbits orbits;
   orbits.input = &input_of(table);
   orbits.orbit_column = table.column(orbits.input->column);
@@ -191,7 +193,7 @@ ExitCode run(const PeriodArguments& arguments) {
     return ExitCode::done;
   }
   install_signal_handlers();
-  RowWriter writer(data_path(arguments), arguments.json, columns_of(orbits),
+  RowWriter writer(row_path(arguments), arguments.json, columns_of(orbits),
                    provenance_of(arguments, scene, tolerance));
   return write_rows(writer, orbits, alpha, tolerance);
 }

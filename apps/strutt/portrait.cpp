@@ -81,7 +81,9 @@ PortraitOptions levels_of(const PortraitArguments& a, double alpha) {
 }
 
 std::vector<MotionStart> starts_in(const std::string& path) {
-  const NumericTable table = read_table(path, {.required = {"angle", "velocity"}, .optional = {}});
+  const NumericTable table = read_table(path, {.required = {"angle", "velocity"},
+                                               .optional = {},
+                                               .units = {{"angle", "rad"}, {"velocity", "rad/s"}}});
   const std::size_t angle = table.column("angle"), velocity = table.column("velocity");
   std::vector<MotionStart> starts;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {

@@ -165,6 +165,7 @@ TEST_CASE("outputs that do not fit are refused", "[apps][command_line]") {
   room.refuses({"chart", "m.toml", "-o", ".", kAxes[0], kAxes[1], kAxes[2], kAxes[3]}, 2, {"format"});
   room.refuses({"stability", "m.toml", "-o", "s.h5"}, 2, {"'s.h5'", "CSV"});
   room.refuses({"stability", "m.toml", "-o", "s.json"}, 2, {"--json"});
+  room.refuses({"period", "--amplitude", "1", "-o", "s.h5"}, 2, {"'s.h5'", "CSV"});
   room.refuses({"stability", "m.toml", "--json", "-o", "out.csv"}, 2, {"--json"});
   room.refuses({"stability", "-", "--points", "-"}, 2, {"standard input"});
 }

@@ -175,10 +175,10 @@ TEST_CASE("an interrupt ends every command within a second and leaves nothing", 
     room.stops(words, SIGINT);
   }
   room.stops({"stability", "m.toml", "--points", table, "--tolerance", "1e-12", "-o", "old.csv"}, SIGINT);
-  room.stops({"motion", "p.toml", "--angle", "1", "--velocity", "0", "--duration", "1e9", "--samples", "3",
+  room.stops({"motion", "p.toml", "--angle", "1", "--velocity", "0", "--duration", "2e5", "--samples", "3",
               "-o", "old.csv"},
              SIGINT);
-  room.stops({"motion", "p.toml", "--angle", "1", "--velocity", "0", "--duration", "1e9", "--samples", "3",
+  room.stops({"motion", "p.toml", "--angle", "1", "--velocity", "0", "--duration", "2e5", "--samples", "3",
               "-o", "old.csv"},
              SIGTERM);
 }

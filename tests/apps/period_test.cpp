@@ -74,6 +74,16 @@ TEST_CASE("periods of a file keep their columns and their order", "[apps][period
   CHECK(json.at("rows").at(0).at("ratio").get<double>() == Approx(1.0663342455799631));
 }
 
+TEST_CASE("the unit in a header of periods is converted, or refused", "[apps][period]") {
+  const auto in_file = [](const char* text) { return period({"--points", "-"}, {.input = text}); };
+  const Words row = row_of(in_file("amplitude [deg],alpha [Hz]\n90,1\n"));
+  CHECK(number(row[2]) == Approx(1.18034059901609622604533794).epsilon(1e-15));
+  CHECK(number(row[3]) == 1.18034059901609622604533794);
+  const Result wrong = in_file("amplitude [m]\n1\n");
+  CHECK(wrong.code == 3);
+  CHECK(wrong.err.find("dimension") != std::string::npos);
+}
+
 TEST_CASE("a scene gives alpha", "[apps][period]") {
   const Words row = row_of(period({"--amplitude", "1", "--scene", "-"}, {.input = kFree}));
   const double alpha = std::sqrt(1.5 * 9.81);

@@ -28,7 +28,8 @@ const std::vector<Point>& points() {
 /// Strutt, asked for a tolerance as a user would.
 class Engine {
  public:
-  explicit Engine(bool estimate_error) : options_{.estimate_error = estimate_error} {}
+  explicit Engine(bool estimate_error)
+      : options_{.method = strutt::Method::arkode, .estimate_error = estimate_error} {}
   void set_tolerance(double tolerance) { options_.tolerance = std::clamp(tolerance, 1e-13, 1e-2); }
 
   Matrix compute(const Point& point, long& right_hand_sides) {

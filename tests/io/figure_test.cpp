@@ -126,6 +126,7 @@ TEST_CASE("ticks stand at round numbers of linear, reversed and logarithmic axes
 TEST_CASE("a figure is drawn as PNG, SVG and PDF, whatever its shape", "[io][figure]") {
   const ScratchDirectory scratch;
   CHECK(drawn(scratch / "a.png", 20, 10).starts_with("\x89PNG"));
+  CHECK(drawn(scratch / "B.PNG", 20, 10).starts_with("\x89PNG"));
   CHECK(drawn(scratch / "a.pdf", 20, 10).starts_with("%PDF"));
   const std::string svg = drawn(scratch / "a.svg", 20, 10);
   CHECK(svg.find("<svg") != std::string::npos);
@@ -135,7 +136,7 @@ TEST_CASE("a figure is drawn as PNG, SVG and PDF, whatever its shape", "[io][fig
   CHECK(drawn(scratch / "b.svg", 1, 1).find("</svg>") != std::string::npos);
   CHECK(drawn(scratch / "b.svg", 1, 7).find("</svg>") != std::string::npos);
   CHECK(drawn(scratch / "b.svg", 2500, 3).find("</svg>") != std::string::npos);
-  CHECK(scratch.names().size() == 4);
+  CHECK(scratch.names().size() == 5);
 }
 
 TEST_CASE("the copy for a figure does not grow with the chart", "[io][figure]") {
