@@ -52,6 +52,7 @@ struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not g
   std::optional<std::string> from_top;
   std::optional<std::string> separatrix_excess;
   std::optional<std::string> points;
+  bool compare = false;
 };
 
 struct PortraitArguments : CommonArguments {  // the scene may be missing

@@ -43,7 +43,7 @@ Example (the pendulum: delta = 0, beta = -1/16):
 
 constexpr const char* kPeriodExample = R"(
 Example:
-  strutt period --amplitude "90 deg"
+  strutt period --amplitude "90 deg" --compare
   printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
 )";
 
@@ -191,7 +191,7 @@ CLI::App* add_normal_form(CLI::App& app, NormalFormArguments& arguments) {
 }
 
 CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
-  auto* command = app.add_subcommand("period", "exact period of the free pendulum at an amplitude");
+  auto* command = app.add_subcommand("period", "period of the free pendulum at an amplitude");
   command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
       ->type_name("SCENE");
   add_common(*command, arguments, "largest relative error of the period", "exact",
@@ -207,6 +207,8 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
       ->add_option("--points", arguments.points,
                    "CSV file with a column amplitude, from_top or separatrix_excess, and alpha if wanted")
       ->type_name("IN.csv");
+  command->add_flag("--compare", arguments.compare,
+                    "add T/T0 by the normal form and by Krylov's technique, each with its true error");
   command->footer(std::string(kPeriodExample) + kExitCodes);
   return command;
 }

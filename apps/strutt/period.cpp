@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "commands.hpp"
 #include "rows.hpp"
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/free_pendulum/energy.hpp"
+#include "strutt/free_pendulum/period_formulas.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -23,12 +26,15 @@ struct Input {
   const char* unit;
   std::optional<std::string> PeriodArguments::*argument;
   Period (*period)(double, const Eigenfrequency&);
+  double (*amplitude)(double);  // of a libration; of rest 0
 };
 const std::array<Input, 3> kInputs{
-    {{"amplitude", "--amplitude", "rad", &PeriodArguments::amplitude, period_of_amplitude},
-     {"from_top", "--from-top", "rad", &PeriodArguments::from_top, period_of_from_top},
-     {"separatrix_excess", "--separatrix-excess", "", &PeriodArguments::separatrix_excess,
-      period_of_excess}}};
+    {{"amplitude", "--amplitude", "rad", &PeriodArguments::amplitude, period_of_amplitude,
+      [](double amplitude) { return amplitude; }},
+     {"from_top", "--from-top", "rad", &PeriodArguments::from_top, period_of_from_top,
+      [](double from_top) { return std::numbers::pi - from_top; }},
+     {"separatrix_excess", "--separatrix-excess", "", &PeriodArguments::separatrix_excess, period_of_excess,
+      [](double excess) { return excess == -4.0 ? 0.0 : energy_integral(excess).amplitude; }}}};
 
 /// The orbits asked for: the columns as they were read, and where the two that matter stand.
 struct Orbits {
@@ -38,11 +44,23 @@ struct Orbits {
   std::size_t orbit_column = 0;
   std::optional<std::size_t> alpha_column;
 
-  Period period(const std::vector<double>& row, const Eigenfrequency& otherwise) const {
-    const Eigenfrequency alpha = alpha_column ? Eigenfrequency{row[*alpha_column], 0.0} : otherwise;
+  Eigenfrequency alpha(const std::vector<double>& row, const Eigenfrequency& otherwise) const {
+    return alpha_column ? Eigenfrequency{row[*alpha_column], 0.0} : otherwise;
+  }
+  Period period(const std::vector<double>& row, const Eigenfrequency& alpha) const {
     return input->period(row[orbit_column], alpha);
   }
 };
+
+/// What is to be told about an orbit.
+struct Wanted {
+  double tolerance = 1e-15;
+  std::optional<CheapestPeriod> cheapest;  // none: the closed form whatever the tolerance
+  bool compare = false;
+};
+
+/// The formulas that `--compare` shows.
+constexpr std::array kCompared{PeriodMethod::normal_form, PeriodMethod::krylov, PeriodMethod::krylov_squared};
 
 Orbits orbit_of_flag(const Input& input, const std::string& text, const Eigenfrequency& alpha) {
   Orbits orbits;
@@ -87,7 +105,7 @@ Orbits orbits_of_file(const std::string& path, const Eigenfrequency& alpha) {
     orbits.alpha_column = table.column("alpha");
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     try {
-      orbits.period(table.rows[i], alpha);
+      orbits.period(table.rows[i], orbits.alpha(table.rows[i], alpha));
     } catch (const InvalidInput& error) {
       throw FileError(table.file, table.lines[i], 0, error.what());
     }
@@ -131,21 +149,26 @@ std::optional<SceneFile> free_scene(const PeriodArguments& arguments) {
 }
 
 Provenance provenance_of(const PeriodArguments& arguments, const std::optional<SceneFile>& scene,
-                         double tolerance) {
-  if (scene) return provenance_of(arguments, *scene, Method::exact, tolerance);
+                         Method method, double tolerance) {
+  if (scene) return app::provenance_of(arguments, *scene, method, tolerance);
   Provenance provenance = make_provenance(arguments.command);
   provenance.emplace_back("model", "free pendulum");
-  provenance.emplace_back("method", to_string(Method::exact));
+  provenance.emplace_back("method", to_string(method));
   provenance.emplace_back("tolerance", to_text(tolerance));
   return provenance;
 }
 
-std::vector<Column> columns_of(const Orbits& orbits) {
+std::vector<Column> columns_of(const Orbits& orbits, bool compare) {
   std::vector<Column> columns;
   for (const auto& name : orbits.columns)
     columns.push_back({name, name == "alpha" ? "rad/s" : name == "separatrix_excess" ? "1" : "rad"});
   columns.insert(columns.end(),
                  {{"period", "s"}, {"ratio", "1"}, {"error", "1"}, {"method", ""}, {"outcome", ""}});
+  if (!compare) return columns;
+  for (const auto formula : kCompared) {
+    const std::string name(to_string(formula));
+    columns.insert(columns.end(), {{name, "1"}, {name + "_error", "1"}});
+  }
   return columns;
 }
 
@@ -154,26 +177,47 @@ Outcome outcome_of(const Period& result, double tolerance) {
   return result.error <= tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
 }
 
-ExitCode write_rows(RowWriter& writer, const Orbits& orbits, const Eigenfrequency& alpha, double tolerance) {
+/// Ratio and error of every formula; empty where it is not defined.
+void append_comparison(std::vector<Cell>& cells, const Period& exact, double amplitude) {
+  for (const auto formula : kCompared) {
+    const bool defined = std::isfinite(exact.ratio) && amplitude < formula_limit(formula);
+    if (!defined) {
+      cells.insert(cells.end(), {Cell{}, Cell{}});
+      continue;
+    }
+    const FormulaError found = formula_error(formula, amplitude);
+    cells.insert(cells.end(), {found.ratio, found.ratio / exact.ratio - 1.0});
+  }
+}
+
+ExitCode write_rows(RowWriter& writer, const Orbits& orbits, const Eigenfrequency& scene_alpha,
+                    const Wanted& wanted) {
   ExitCode code = ExitCode::done;
   std::vector<Cell> cells;
   for (const auto& row : orbits.rows) {
     throw_if_interrupted();
-    const Period result = orbits.period(row, alpha);
-    const Outcome outcome = outcome_of(result, tolerance);
+    const Eigenfrequency alpha = orbits.alpha(row, scene_alpha);
+    const Period exact = orbits.period(row, alpha);
+    const double amplitude = orbits.input->amplitude(row[orbits.orbit_column]);
+    const Period result = wanted.cheapest ? wanted.cheapest->replace(exact, amplitude, alpha) : exact;
+    const Outcome outcome = outcome_of(result, wanted.tolerance);
     if (outcome != Outcome::converged) code = ExitCode::unresolved;
     cells.assign(row.begin(), row.end());
     cells.insert(cells.end(), {result.period, result.ratio, result.error,
                                std::string(to_string(result.method)), std::string(to_string(outcome))});
+    if (wanted.compare) append_comparison(cells, exact, amplitude);
     writer.write(cells);
   }
   writer.commit();
   return code;
 }
 
-void print_plan(const std::optional<SceneFile>& scene, const Orbits& orbits, double tolerance) {
-  const std::vector<std::string> lines{fmt::format("points: {}", orbits.rows.size()), "method: exact",
-                                       "tolerance: " + to_text(tolerance), "threads: 1"};
+void print_plan(const std::optional<SceneFile>& scene, const Orbits& orbits, const Wanted& wanted) {
+  const std::vector<std::string> lines{
+      fmt::format("points: {}", orbits.rows.size()),
+      std::string("method: ") +
+          (wanted.cheapest ? "the cheapest formula that is good enough, else exact" : "exact"),
+      "tolerance: " + to_text(wanted.tolerance), "threads: 1"};
   if (scene) return app::print_plan(*scene, lines);
   app::print_plan("free pendulum", lines);
 }
@@ -182,20 +226,23 @@ void print_plan(const std::optional<SceneFile>& scene, const Orbits& orbits, dou
 
 ExitCode run(const PeriodArguments& arguments) {
   check_flags(arguments);
-  const double tolerance = tolerance_of(arguments, 1e-15, {.least = 5e-16, .most = 1e-1});
-  method_of(arguments, "period", {Method::exact});
+  Wanted wanted;
+  wanted.tolerance = tolerance_of(arguments, 1e-15, {.least = 5e-16, .most = 1e-1});
+  wanted.compare = arguments.compare;
+  const Method method = method_of(arguments, "period", {Method::exact});
+  if (method == Method::automatic) wanted.cheapest.emplace(wanted.tolerance);
   threads_of(arguments);  // a period costs less than handing it to a thread
   const auto scene = free_scene(arguments);
   const Eigenfrequency alpha = scene ? eigenfrequency(*scene->scene.pendulum) : Eigenfrequency{};
   const Orbits orbits = orbits_of(arguments, alpha);
   if (arguments.dry_run) {
-    print_plan(scene, orbits, tolerance);
+    print_plan(scene, orbits, wanted);
     return ExitCode::done;
   }
   install_signal_handlers();
-  RowWriter writer(row_path(arguments), arguments.json, columns_of(orbits),
-                   provenance_of(arguments, scene, tolerance));
-  return write_rows(writer, orbits, alpha, tolerance);
+  RowWriter writer(row_path(arguments), arguments.json, columns_of(orbits, wanted.compare),
+                   provenance_of(arguments, scene, method, wanted.tolerance));
+  return write_rows(writer, orbits, alpha, wanted);
 }
 
 }  // namespace strutt::app

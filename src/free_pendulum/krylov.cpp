@@ -35,14 +35,6 @@ double krylov_period_ratio(KrylovVariant variant, double amplitude) {
   return 1.0 / krylov_frequency_ratio(variant, amplitude);
 }
 
-FormulaError krylov_error(KrylovVariant variant, double amplitude) {
-  require(amplitude >= 0.0 && amplitude <= std::numbers::pi, "amplitude", amplitude,
-          "0 to 3.141592653589793");
-  const double ratio = krylov_period_ratio(variant, amplitude);
-  const double exact_frequency = arithmetic_geometric_mean(1.0, std::cos(0.5 * amplitude));
-  return {ratio, std::fma(ratio, exact_frequency, -1.0)};
-}
-
 KrylovMotion::KrylovMotion(KrylovVariant variant, double alpha, double amplitude) : amplitude_(amplitude) {
   require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "a positive number");
   const double ratio = krylov_frequency_ratio(variant, amplitude);

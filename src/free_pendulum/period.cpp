@@ -1,5 +1,6 @@
 #include "strutt/free_pendulum/period.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -71,7 +72,9 @@ void check_amplitude(double amplitude) {
 }  // namespace
 
 std::string_view to_string(PeriodMethod method) {
-  return method == PeriodMethod::separatrix ? "separatrix" : "elliptic";
+  constexpr std::array<std::string_view, 6> names{"elliptic", "separatrix",     "normal_form",
+                                                  "krylov",   "krylov_squared", "series"};
+  return names[static_cast<std::size_t>(method)];
 }
 
 Period period_of_amplitude(double amplitude, const Eigenfrequency& alpha) {

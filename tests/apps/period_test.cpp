@@ -1,4 +1,5 @@
 // `strutt period`, and `strutt motion` where the closed form fits.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -91,6 +92,56 @@ TEST_CASE("a scene gives alpha", "[apps][period]") {
   const Words shorter =
       row_of(period({"--amplitude", "1", "--scene", "-", "--set", "pendulum.length=0.25"}, {.input = kFree}));
   CHECK(number(shorter[1]) == Approx(0.5 * number(row[1])).epsilon(1e-15));
+}
+
+TEST_CASE("--compare shows every formula with its true error", "[apps][period][paper]") {
+  const Result result = period({"--points", "-", "--compare"}, {.input = "amplitude\n1\n2\n2.7\n2.9\n0\n"});
+  REQUIRE(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[0] == Words{"amplitude", "period", "ratio", "error", "method", "outcome", "normal_form",
+                         "normal_form_error", "krylov", "krylov_error", "krylov_squared",
+                         "krylov_squared_error"});
+  const double errors[] = {3.1e-4, 3.3e-3, -1.5e-2, -5.7e-2};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Words& row = rows[i + 1];
+    CHECK(number(row[9]) == Approx(errors[i]).epsilon(0.04));
+    CHECK(row[7] == row[9]);  // (22) and (31) are one function of the amplitude
+    const double own = number(row[0]);
+    CHECK(number(row[8]) == Approx(1.0 / (1.0 - own * own / 16.0)).epsilon(1e-15));
+    CHECK(number(row[8]) / number(row[2]) - 1.0 == Approx(number(row[9])).epsilon(1e-12));
+  }
+  CHECK(number(rows[1][2]) == Approx(1.0663342455799631).epsilon(1e-15));
+  CHECK(number(rows[1][11]) == Approx(2.5e-3).epsilon(0.02));
+  CHECK(rows[4][10].empty());  // beyond sqrt(8)
+  CHECK(rows[4][11].empty());
+  CHECK(rows[5][6] == "1");
+  CHECK(rows[5][11] == "0");
+  // No formula for rotations and the separatrix.
+  for (const auto* excess : {"0", "3"}) {
+    const Words row = row_of(period({"--separatrix-excess", excess, "--compare"}));
+    CHECK(std::all_of(row.begin() + 6, row.end(), [](const std::string& cell) { return cell.empty(); }));
+  }
+  const auto json = nlohmann::json::parse(period({"--from-top", "0", "--compare", "--json"}).out);
+  CHECK(json.at("rows").at(0).at("krylov").is_null());
+}
+
+TEST_CASE("--tolerance picks the cheapest formula that is good enough", "[apps][period]") {
+  const auto chosen = [](const char* amplitude, const char* tolerance, const char* method = "auto") {
+    const Words row =
+        row_of(period({"--amplitude", amplitude, "--tolerance", tolerance, "--method", method}));
+    CHECK(number(row[3]) <= number(tolerance));
+    CHECK(std::abs(number(row[2]) / number(row_of(period({"--amplitude", amplitude}))[2]) - 1.0) <=
+          number(row[3]));
+    return row[4];
+  };
+  CHECK(chosen("1", "1e-3") == "krylov");
+  CHECK(chosen("1", "1e-7") == "series");
+  CHECK(chosen("1", "1e-12") == "elliptic");
+  CHECK(chosen("3", "1e-3") == "elliptic");
+  CHECK(chosen("1", "1e-3", "exact") == "elliptic");
+  CHECK(row_of(period({"--separatrix-excess", "-3", "--tolerance", "1e-2"}))[4] == "krylov");
+  CHECK(row_of(period({"--separatrix-excess", "3", "--tolerance", "1e-2"}))[4] == "elliptic");
 }
 
 TEST_CASE("periods refuse what has none", "[apps][period][error]") {

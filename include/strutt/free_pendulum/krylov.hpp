@@ -40,17 +40,6 @@ class KrylovMotion {
 double krylov_frequency_ratio(KrylovVariant variant, double amplitude);
 double krylov_period_ratio(KrylovVariant variant, double amplitude);
 
-/// T/T0 by a formula, and how far that is from the true value of the pendulum.
-struct FormulaError {
-  double ratio = 1.0;           ///< T/T0 by the formula
-  double relative_error = 0.0;  ///< ratio/exact - 1, signed
-};
-
-/// T/T0 of a variant and its true relative error, from the exact period by the arithmetic-geometric mean.
-/// Formula and exact value are rounded first: the error is good to 1e-15 absolute. Throws InvalidInput unless
-/// 0 <= amplitude <= pi (as a double) and below krylov_limit.
-FormulaError krylov_error(KrylovVariant variant, double amplitude);
-
 /// Separatrix of the cubic truncation (11), sqrt(6) rad.
 double cubic_separatrix();
 

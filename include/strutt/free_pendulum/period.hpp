@@ -33,10 +33,14 @@ void period_ratios_from_top(std::span<const double> from_top, std::span<double> 
 
 /// How a period was found.
 enum class PeriodMethod : signed char {
-  elliptic,    ///< the closed form
-  separatrix,  ///< infinite
+  elliptic,        ///< the closed form
+  separatrix,      ///< infinite
+  normal_form,     ///< this and the following: period_formulas.hpp
+  krylov,
+  krylov_squared,
+  series,
 };
-/// As written to files: `elliptic`, `separatrix`.
+/// As written to files: the enumerator.
 std::string_view to_string(PeriodMethod method);
 
 /// A period. `error` bounds the relative errors of all three.
