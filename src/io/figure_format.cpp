@@ -1,12 +1,13 @@
 #include "io/figure_format.hpp"
 
+#include "io/file_ending.hpp"
 #include "io/text.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 
 FigureFormat figure_format(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
+  const std::string ending = ending_of(path);
   if (ending == ".png") return FigureFormat::png;
   if (ending == ".svg") return FigureFormat::svg;
   if (ending == ".pdf") return FigureFormat::pdf;
