@@ -9,12 +9,6 @@
 #include "terminal.hpp"
 
 namespace strutt::app {
-namespace {
-
-struct Failure {
-  ExitCode code;
-  std::string message;
-};
 
 Failure describe_current_exception() {
   try {
@@ -39,8 +33,6 @@ Failure describe_current_exception() {
     return {ExitCode::internal, "internal error"};
   }
 }
-
-}  // namespace
 
 int report_current_exception() {
   // After a signal, whatever failed failed because of it.

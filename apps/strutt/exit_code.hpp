@@ -30,6 +30,15 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
+/// A failure as the shell and the user are told of it.
+struct Failure {
+  ExitCode code;
+  std::string message;
+};
+
+/// For the exception being handled: its exit code and its text.
+Failure describe_current_exception();
+
 /// For the exception being handled: its exit code, after one line on standard error (none for a closed pipe
 /// and for signals).
 int report_current_exception();

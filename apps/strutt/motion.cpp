@@ -43,8 +43,7 @@ std::vector<double> times_of(const std::string& path) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     times.push_back(table.rows[i][0]);
     if (!(times.back() >= 0.0)) {
-      throw FileError(table.file, table.lines[i], 1,
-                      "t = " + to_text(times.back()) + " is not allowed: it must be >= 0");
+      throw table.error_at(i, 0, "t = " + to_text(times.back()) + " is not allowed: it must be >= 0");
     }
   }
   return times;
@@ -64,7 +63,8 @@ Method chosen_method(Method asked, const Scene& scene, bool linear) {
   const bool free = !linear && is_free(scene);
   if (asked == Method::exact && !free) {
     throw UsageError(
-        "--method exact needs a free pendulum (no [support], [moment], damping, --linear); available are auto, "
+        "--method exact needs a free pendulum (no [support], [moment], damping, --linear); available are "
+        "auto, "
         "cvode, arkode");
   }
   return asked == Method::automatic && free ? Method::exact : asked;
@@ -98,8 +98,8 @@ void summarise(const MotionArguments& arguments, const Motion& motion, double se
   if (arguments.quiet) return;
   const auto failed = std::count_if(motion.points.begin(), motion.points.end(),
                                     [](const auto& point) { return point.outcome != Outcome::converged; });
-  print_note(fmt::format("{} times, {} steps ({}) in {:.2g} s, {} not converged", motion.points.size(), motion.cost.steps,
-                         to_string(motion.method), seconds, failed));
+  print_note(fmt::format("{} times, {} steps ({}) in {:.2g} s, {} not converged", motion.points.size(),
+                         motion.cost.steps, to_string(motion.method), seconds, failed));
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ std::vector<MotionStart> starts_in(const std::string& path) {
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     starts.push_back({table.rows[i][angle], table.rows[i][velocity]});
     if (std::abs(starts.back().angle) > 1e9)
-      throw FileError(table.file, table.lines[i], 0, "the angle must be between -1e9 and 1e9 rad");
+      throw table.error_at(i, angle, "the angle must be between -1e9 and 1e9 rad");
   }
   return starts;
 }

@@ -52,6 +52,16 @@ class ScenePoint {
   std::vector<double*> values_;
 };
 
+/// The column that a complaint "field = value ..." is about: the parameter of that name, or one inside the matrix of
+/// that name. The first one where no cell alone is to blame.
+std::size_t blamed_column(const std::vector<std::string>& columns, const std::string& complaint) {
+  const std::string field = complaint.substr(0, complaint.find(" = "));
+  const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& column) {
+    return column == field || column.starts_with(field + ".");
+  });
+  return found == columns.end() ? 0 : static_cast<std::size_t>(found - columns.begin());
+}
+
 /// Reads the points and checks every one of them before anything is computed.
 Points read_points(const StabilityArguments& arguments, const SceneFile& scene, Method method) {
   if (!arguments.points) {
@@ -71,7 +81,7 @@ Points read_points(const StabilityArguments& arguments, const SceneFile& scene, 
       validate(changed);
       check_method(method, linear_model(changed));
     } catch (const InvalidInput& error) {
-      throw FileError(table.file, table.lines[i], 0, error.what());
+      throw table.error_at(i, blamed_column(table.columns, error.what()), error.what());
     }
   }
   return {std::move(table.columns), std::move(table.rows)};

@@ -9,7 +9,7 @@ namespace strutt {
 /// The formats a figure can have.
 enum class FigureFormat { png, svg, pdf };
 
-/// The format that the ending of a path tells; throws InvalidInput for another ending.
+/// The format that the ending of a path tells; in any case; throws InvalidInput for another ending.
 FigureFormat figure_format(const std::filesystem::path& path);
 
 /// gnuplot's terminal and its options: 1600 x 1100 pixels, or the same shape.

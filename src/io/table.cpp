@@ -131,6 +131,10 @@ std::size_t NumericTable::column(const std::string& name) const {
   throw FileError(file, 0, 0, "there is no column '" + printable(name) + "'; the columns are " + quoted_list(columns));
 }
 
+FileError NumericTable::error_at(std::size_t row, std::size_t column, const std::string& what) const {
+  return {file, lines.at(row), cell_columns.at(row * columns.size() + column), what};
+}
+
 NumericTable read_table(const std::filesystem::path& path, const TableSchema& schema) {
   NumericTable table;
   table.file = path == "-" ? "standard input" : path.string();
@@ -141,6 +145,7 @@ NumericTable read_table(const std::filesystem::path& path, const TableSchema& sc
   while (reader.next()) {
     table.rows.push_back(read_row(reader, headers));
     table.lines.push_back(reader.line());
+    for (const auto& cell : reader.cells()) table.cell_columns.push_back(cell.column);
   }
   if (table.rows.empty()) throw FileError(table.file, reader.line(), 0, "there are no rows below the header");
   return table;

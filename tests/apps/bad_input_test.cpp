@@ -162,7 +162,8 @@ TEST_CASE("a table of points that is wrong is refused with line and column", "[a
       {head + "1,2\n-inf,1\n", {"in.csv:3:1", "'-inf'"}},
       {head + "1e999,1\n", {"in.csv:2:1", "'1e999'"}},
       {head + "0x10,1\n", {"in.csv:2:1", "'0x10'"}},
-      {"mathieu.damping\n0\n-1\n", {"in.csv:3", "mathieu.damping = -1", ">= 0"}},
+      {"mathieu.damping\n0\n-1\n", {"in.csv:3:1: mathieu.damping = -1", ">= 0"}},
+      {"mathieu.delta,mathieu.damping\n1,0\n1, -1\n", {"in.csv:3:4: mathieu.damping = -1", ">= 0"}},
       // Not in anybody's list:
       {"", {"in.csv:1:1", "empty"}},
       {"\xEF\xBB\xBF", {"in.csv:1:1", "empty"}},
@@ -185,9 +186,33 @@ TEST_CASE("a table of points that is wrong is refused with line and column", "[a
   }
 }
 
+TEST_CASE("a value that the model cannot have is refused with line and column", "[apps][bad_input]") {
+  const std::string body = "[pendulum]\nshape = \"body\"\ncentroid = 0.5\ninertia = 0.4\n";
+  const std::string linear = "[linear]\nperiod = 1\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1, 0], [0, 2]] }\n";
+  struct Point {
+    std::string scene, table, says;
+  };
+  const std::vector<Point> points{
+      {pendulum("length = 1\n"), "pendulum.length,support.frequency\n1,12\n1.25,0\n",
+       "in.csv:3:6: support.frequency = 0"},
+      {pendulum("length = 1\n"), "support.frequency,pendulum.damping\n# a remark\n 12 , -0.5\n",
+       "in.csv:3:7: pendulum.damping = -0.5"},
+      {pendulum("length = 1\n"), "support.amplitude,pendulum.length [cm]\n0,-7\n",
+       "in.csv:2:3: pendulum.length = -0.07"},
+      {linear, "linear.period,linear.mass.1.1\n10,0\n", "in.csv:2:4: linear.mass = matrix"},
+      // It is the inertia in the scene that is too small for the centroid of the row.
+      {body, "pendulum.gravity,pendulum.centroid\n9,0.5\n9,2\n", "in.csv:3:1: pendulum.inertia"}};
+  for (const auto& [scene, table, says] : points) {
+    INFO(table);
+    check_says(Room(scene, table)
+                   .refusal({"stability", "scene.toml", "--points", "in.csv", "-o", "out.csv"}, kFileError),
+               {says});
+  }
+}
+
 TEST_CASE("a table of times that is wrong is refused with line and column", "[apps][bad_input]") {
   const std::vector<Case> cases{{"time\n1\n", {"in.csv:1:1", "unknown column 'time'"}},
-                                {"t\n1\n-1e-9\n", {"in.csv:3:1", "t = -1e-09", ">= 0"}},
+                                {"t\n1\n  -1e-9\n", {"in.csv:3:3", "t = -1e-09", ">= 0"}},
                                 {"t,t\n1,2\n", {"in.csv:1:3", "second time"}},
                                 {"t [kg]\n1\n", {"in.csv:1:1", "wrong dimension"}},
                                 {"t\n", {"no rows"}}};

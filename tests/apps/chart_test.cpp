@@ -175,6 +175,17 @@ TEST_CASE("exit code 1 for an unresolved verdict only where a verdict was asked 
   CHECK(code("growth,margin,outcome") == 0);
 }
 
+TEST_CASE("endings of data and figures are taken in any case", "[apps][chart][figure]") {
+  const ScratchDirectory directory;
+  const Result result = strutt({"chart", "-", "--x", "mathieu.delta=0:2:10", "--y", "mathieu.epsilon=0:1:8",
+                                "--tolerance", "1e-5", "--figure", "c.PNG", "-o", "c.CSV"},
+                               {.input = "[mathieu]\n", .directory = directory.path()});
+  INFO(result.err);
+  CHECK(result.code <= 1);
+  CHECK(content_of(directory / "c.PNG").starts_with("\x89PNG\r\n\x1A\n"));
+  CHECK(csv_rows(content_of(directory / "c.CSV")).size() == 81);
+}
+
 TEST_CASE("a figure comes as PNG, SVG and PDF", "[apps][chart][figure]") {
   const ScratchDirectory directory;
   const std::string scene = "[pendulum]\nlength = 1\n[support]\nfrequency = 12\n";

@@ -7,6 +7,7 @@
 #include "io/contour.hpp"
 #include "io/figure_axis.hpp"
 #include "io/figure_data.hpp"
+#include "io/figure_format.hpp"
 #include "io/figure_labels.hpp"
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
@@ -155,6 +156,14 @@ TEST_CASE("what is wrong with a figure is said before anything is drawn", "[io][
   CHECK(message_of<InvalidInput>([&] { ChartFigure(scratch / "a.png", d); }).find("growth") != std::string::npos);
   CHECK_THROWS_AS(ChartFigure(scratch / "none/a.png", description_of(2, 2)), InputOutputError);
   CHECK(scratch.names().empty());
+}
+
+TEST_CASE("the ending of a figure is taken in any case", "[io][figure]") {
+  CHECK(figure_format("a.png") == FigureFormat::png);
+  CHECK(figure_format("a.PNG") == FigureFormat::png);
+  CHECK(figure_format("A.Svg") == FigureFormat::svg);
+  CHECK(figure_format("a.b.PDF") == FigureFormat::pdf);
+  for (const char* name : {"png", ".png", "a.png.gz", "a.PNGS", "a."}) CHECK_THROWS_AS(figure_format(name), InvalidInput);
 }
 
 TEST_CASE("without gnuplot the message says so and the old picture stays", "[io][figure][F7]") {

@@ -46,8 +46,16 @@ TEST_CASE("a plain table is read with the lines of its rows", "[io][table]") {
   CHECK(table.columns == std::vector<std::string>{"alpha", "beta"});
   CHECK(table.rows == std::vector<std::vector<double>>{{1, -2.5e-3}, {3, 4}});
   CHECK(table.lines == std::vector<int>{3, 5});
+  CHECK(table.cell_columns == std::vector<int>{1, 3, 1, 3});
   CHECK(table.column("beta") == 1);
   CHECK(message_of<FileError>([&] { (void)table.column("gamma"); }).find("'alpha', 'beta'") != std::string::npos);
+}
+
+TEST_CASE("a complaint about a cell names its place", "[io][table]") {
+  const auto table = read("alpha,beta\n1,2\n\t3 , 14\n");
+  CHECK(std::string(table.error_at(0, 1, "too large").what()).ends_with("in.csv:2:3: too large"));
+  CHECK(std::string(table.error_at(1, 0, "too large").what()).ends_with("in.csv:3:2: too large"));
+  CHECK(std::string(table.error_at(1, 1, "too large").what()).ends_with("in.csv:3:6: too large"));
 }
 
 TEST_CASE("harmless varieties of CSV mean the same", "[io][table]") {

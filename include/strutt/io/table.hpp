@@ -21,9 +21,12 @@ struct NumericTable {
   std::string file;
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
-  std::vector<int> lines;  ///< line number of each row, for messages
+  std::vector<int> lines;         ///< line number of each row, for messages
+  std::vector<int> cell_columns;  ///< column of the file, in characters, where each cell begins, row after row
 
   std::size_t column(const std::string& name) const;  ///< index; throws FileError naming the columns there are
+  /// The complaint `what` about a cell, at its place in the file. Indices count from 0.
+  FileError error_at(std::size_t row, std::size_t column, const std::string& what) const;
 };
 
 /// Which columns a table must and may have. Anything else, or a column twice, is an error.
