@@ -94,7 +94,7 @@ TEST_CASE("a scene gives alpha", "[apps][period]") {
   CHECK(number(shorter[1]) == Approx(0.5 * number(row[1])).epsilon(1e-15));
 }
 
-TEST_CASE("--compare shows every formula with its true error", "[apps][period][paper]") {
+TEST_CASE("period --compare shows every formula with its true error", "[apps][period][paper]") {
   const Result result = period({"--points", "-", "--compare"}, {.input = "amplitude\n1\n2\n2.7\n2.9\n0\n"});
   REQUIRE(result.code == 0);
   const auto rows = csv_rows(result.out);
@@ -126,7 +126,7 @@ TEST_CASE("--compare shows every formula with its true error", "[apps][period][p
   CHECK(json.at("rows").at(0).at("krylov").is_null());
 }
 
-TEST_CASE("--tolerance picks the cheapest formula that is good enough", "[apps][period]") {
+TEST_CASE("the tolerance of a period picks the cheapest formula that is good enough", "[apps][period]") {
   const auto chosen = [](const char* amplitude, const char* tolerance, const char* method = "auto") {
     const Words row =
         row_of(period({"--amplitude", amplitude, "--tolerance", tolerance, "--method", method}));
