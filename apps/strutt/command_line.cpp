@@ -6,8 +6,8 @@
 
 #include "exit_code.hpp"
 #include "recorded_command.hpp"
-#include "strutt/base/error.hpp"
 #include "strutt/io/provenance.hpp"
+#include "unknown_words.hpp"
 
 namespace strutt::app {
 namespace {
@@ -220,12 +220,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-std::string one_of_the_commands(const CLI::App& app) {
-  std::string text;
-  for (const auto& name : command_names(app)) text += (text.empty() ? "" : ", ") + name;
-  return "the commands are " + text + " (see strutt --help)";
-}
-
 std::vector<std::string> flag_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const auto* option : command.get_options()) {
@@ -234,30 +228,8 @@ std::vector<std::string> flag_names(const CLI::App& command) {
   return names;
 }
 
-/// What is left over is a mistake: the first flag among it, else the first word.
-[[noreturn]] void refuse(const CLI::App& command, const std::vector<std::string>& extras) {
-  std::string word = extras.front();
-  for (const auto& extra : extras) {
-    if (extra.starts_with("-")) {
-      word = extra.substr(0, extra.find('='));
-      break;
-    }
-  }
-  if (!word.starts_with("-")) throw UsageError("unexpected argument '" + word + "'");
-  const std::string close = nearest(word, flag_names(command));
-  throw UsageError("unknown flag '" + word + "'" +
-                   (close.empty() ? " (see strutt " + command.get_name() + " --help)"
-                                  : "; did you mean '" + close + "'?"));
-}
-
-[[noreturn]] void refuse_command(const CLI::App& app) {
-  const auto extras = app.remaining();
-  if (extras.empty()) throw UsageError("no command; " + one_of_the_commands(app));
-  const std::string& word = extras.front();
-  if (word.starts_with("-")) throw UsageError("unknown flag '" + word + "'; " + one_of_the_commands(app));
-  const std::string close = nearest(word, command_names(app));
-  throw UsageError("unknown command '" + word + "'; " +
-                   (close.empty() ? one_of_the_commands(app) : "did you mean '" + close + "'?"));
+[[noreturn]] void refuse_extras(const CLI::App& command, const std::vector<std::string>& extras) {
+  refuse_words(extras, command.get_name(), flag_names(command));
 }
 
 /// A command: what parses it, and what it was told.
@@ -303,12 +275,12 @@ Arguments parse_command_line(int argc, const char* const* argv) {
     return Information{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
     // A misspelt flag often is why a required one seems to be missing.
-    if (chosen() != nullptr && !chosen()->remaining().empty()) refuse(*chosen(), chosen()->remaining());
+    if (chosen() != nullptr && !chosen()->remaining().empty()) refuse_extras(*chosen(), chosen()->remaining());
     throw UsageError(error.what());
   }
-  if (chosen() == nullptr) refuse_command(app);
+  if (chosen() == nullptr) refuse_command(app.remaining(), command_names(app));
   const auto extras = app.remaining(true);
-  if (!extras.empty()) refuse(*chosen(), extras);
+  if (!extras.empty()) refuse_extras(*chosen(), extras);
   const auto found = std::find_if(commands.begin(), commands.end(),
                                   [&](const Command& known) { return known.parser == chosen(); });
   found->common->command = recorded_command(argc, argv);

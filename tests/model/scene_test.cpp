@@ -6,17 +6,12 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "support/scenes.hpp"
 
 using namespace strutt;
+using test::rod_scene;
 
 namespace {
-
-Scene rod_scene(Equilibrium about = Equilibrium::hanging) {
-  Scene scene;
-  scene.pendulum = PendulumTable{.mass = 1.2, .length = 0.8, .damping = 0.25, .about = about};
-  scene.support = SupportTable{.amplitude = 0.06, .frequency = 12.0, .phase = std::numbers::pi / 2.0};
-  return scene;
-}
 
 Scene mathieu_scene(double delta, double epsilon, double damping = 0.0, bool mathieu_form = false) {
   Scene scene;
