@@ -56,7 +56,7 @@ std::vector<NormalForm> compute(const NumericTable& table) {
     try {
       forms.push_back(normal_form(system));
     } catch (const InvalidInput& error) {
-      throw FileError(table.file, table.lines[i], 0, error.what());
+      throw table.error_at(i, table.column("alpha"), error.what());  // the only one with a range
     }
   }
   return forms;

@@ -107,7 +107,8 @@ Orbits orbits_of_file(const std::string& path, const Eigenfrequency& alpha) {
     try {
       orbits.period(table.rows[i], orbits.alpha(table.rows[i], alpha));
     } catch (const InvalidInput& error) {
-      throw FileError(table.file, table.lines[i], 0, error.what());
+      const bool is_alpha = orbits.alpha_column && std::string_view(error.what()).starts_with("alpha");
+      throw table.error_at(i, is_alpha ? *orbits.alpha_column : orbits.orbit_column, error.what());
     }
   }
   orbits.columns = std::move(table.columns);

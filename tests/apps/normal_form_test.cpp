@@ -75,7 +75,7 @@ TEST_CASE("normal-form ends with the code of the contract", "[apps][free_pendulu
   };
   ends(normal_form("alpha\n1\n", "--tolerance 1e-9"), 2, "--tolerance");
   ends(normal_form("alpha\n1\n", "--method exact"), 2, "--method");
-  ends(normal_form("alpha\n1\n0\n"), 3, ":3: alpha = 0");
+  ends(normal_form("alpha\n1\n0\n"), 3, ":3:1: alpha = 0");
   ends(normal_form("f2_30\n1\n"), 3, "alpha");
   ends(normal_form("alpha,f2_31\n1,1\n"), 3, "f2_31");
   ends(normal_form("alpha,f2_30\n1,nan\n"), 3, ":2:");

@@ -165,7 +165,8 @@ TEST_CASE("periods refuse what has none", "[apps][period][error]") {
   fails({"--points", "-"}, 3, ":3", {.input = "amplitude\n1\n4\n"});
   fails({"--points", "-"}, 3, "exclude each other", {.input = "amplitude,from_top\n1,1\n"});
   fails({"--points", "-"}, 3, "wanted is a column", {.input = "alpha\n1\n"});
-  fails({"--points", "-"}, 3, "alpha = 0", {.input = "amplitude,alpha\n1,0\n"});
+  fails({"--points", "-"}, 3, ":2:3: alpha = 0", {.input = "amplitude,alpha\n1,0\n"});
+  fails({"--points", "-"}, 3, ":3:1: amplitude = 4", {.input = "amplitude,alpha\n1,1\n4,1\n"});
   const auto scene_fails = [&](const std::string& text, const std::string& why) {
     fails({"--amplitude", "1", "--scene", "-"}, 3, why, {.input = text});
   };
