@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "commands.hpp"
 #include "rows.hpp"
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/free_pendulum/energy.hpp"
 #include "strutt/free_pendulum/period_formulas.hpp"
 #include "terminal.hpp"
 
@@ -26,15 +24,16 @@ struct Input {
   const char* unit;
   std::optional<std::string> PeriodArguments::*argument;
   Period (*period)(double, const Eigenfrequency&);
-  double (*amplitude)(double);  // of a libration; of rest 0
+  Period (CheapestPeriod::*cheapest)(double, const Eigenfrequency&) const;
+  FormulaError (*formula)(PeriodMethod, double);
 };
 const std::array<Input, 3> kInputs{
     {{"amplitude", "--amplitude", "rad", &PeriodArguments::amplitude, period_of_amplitude,
-      [](double amplitude) { return amplitude; }},
+      &CheapestPeriod::of_amplitude, formula_of_amplitude},
      {"from_top", "--from-top", "rad", &PeriodArguments::from_top, period_of_from_top,
-      [](double from_top) { return std::numbers::pi - from_top; }},
+      &CheapestPeriod::of_from_top, formula_of_from_top},
      {"separatrix_excess", "--separatrix-excess", "", &PeriodArguments::separatrix_excess, period_of_excess,
-      [](double excess) { return excess == -4.0 ? 0.0 : energy_integral(excess).amplitude; }}}};
+      &CheapestPeriod::of_excess, formula_of_excess}}};
 
 /// The orbits asked for: the columns as they were read, and where the two that matter stand.
 struct Orbits {
@@ -178,16 +177,15 @@ Outcome outcome_of(const Period& result, double tolerance) {
   return result.error <= tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
 }
 
-/// Ratio and error of every formula; empty where it is not defined.
-void append_comparison(std::vector<Cell>& cells, const Period& exact, double amplitude) {
-  for (const auto formula : kCompared) {
-    const bool defined = std::isfinite(exact.ratio) && amplitude < formula_limit(formula);
-    if (!defined) {
+/// Ratio and error of every formula; empty where it has no meaning.
+void append_comparison(std::vector<Cell>& cells, const Input& input, double orbit) {
+  for (const auto method : kCompared) {
+    const FormulaError formula = input.formula(method, orbit);
+    if (std::isnan(formula.ratio)) {
       cells.insert(cells.end(), {Cell{}, Cell{}});
-      continue;
+    } else {
+      cells.insert(cells.end(), {formula.ratio, formula.relative_error});
     }
-    const FormulaError found = formula_error(formula, amplitude);
-    cells.insert(cells.end(), {found.ratio, found.ratio / exact.ratio - 1.0});
   }
 }
 
@@ -198,15 +196,15 @@ ExitCode write_rows(RowWriter& writer, const Orbits& orbits, const Eigenfrequenc
   for (const auto& row : orbits.rows) {
     throw_if_interrupted();
     const Eigenfrequency alpha = orbits.alpha(row, scene_alpha);
-    const Period exact = orbits.period(row, alpha);
-    const double amplitude = orbits.input->amplitude(row[orbits.orbit_column]);
-    const Period result = wanted.cheapest ? wanted.cheapest->replace(exact, amplitude, alpha) : exact;
+    const double orbit = row[orbits.orbit_column];
+    const Period result = wanted.cheapest ? (*wanted.cheapest.*orbits.input->cheapest)(orbit, alpha)
+                                          : orbits.period(row, alpha);
     const Outcome outcome = outcome_of(result, wanted.tolerance);
     if (outcome != Outcome::converged) code = ExitCode::unresolved;
     cells.assign(row.begin(), row.end());
     cells.insert(cells.end(), {result.period, result.ratio, result.error,
                                std::string(to_string(result.method)), std::string(to_string(outcome))});
-    if (wanted.compare) append_comparison(cells, exact, amplitude);
+    if (wanted.compare) append_comparison(cells, *orbits.input, orbit);
     writer.write(cells);
   }
   writer.commit();

@@ -1,140 +1,262 @@
 #include "strutt/free_pendulum/period_formulas.hpp"
 
 #include <algorithm>
-#include <array>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/roots.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
+#include "free_pendulum/agm.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/free_pendulum/elliptic.hpp"
+#include "strutt/free_pendulum/frequency_series.hpp"
 #include "strutt/free_pendulum/krylov.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kUnit = 0x1p-53;
+// In units of 2^-53: formula 4, its amplitude rounded from another input 3 (the formulas are used where their
+// ratio changes by less than 3 times the relative change of the amplitude), T0 and T = ratio T0 2; one to
+// spare for the rounding of the error.
+constexpr double kRounding = 11.0 * kUnit;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr int kSeriesOrder = 14;
+constexpr double kSeriesReach = 0.1;  // (0.1/pi)^12 = 1e-18 is cut off
+constexpr int kRemainderOrder = 26;
+constexpr double kRemainderReach = 0.3;  // (0.3/pi)^14 = 5e-15 of the remainder is cut off
 
-/// 1 + A^2/16 + ..., the exact coefficients of pendulum_frequency_series(12).period.
-double series_ratio(double amplitude) {
-  constexpr double c[] = {1.0 / 16.0,
-                          11.0 / 3072.0,
-                          173.0 / 737280.0,
-                          22931.0 / 1321205760.0,
-                          1319183.0 / 951268147200.0,
-                          233526463.0 / 2009078326886400.0};
-  const double a = amplitude * amplitude;
-  double sum = 0.0;
-  for (auto k = std::size(c); k-- > 0;) sum = a * (c[k] + sum);
-  return 1.0 + sum;
-}
+const DoubleDouble kOne = 1.0;
 
-double krylov_ratio(double amplitude) { return krylov_period_ratio(KrylovVariant::frequency, amplitude); }
-double squared_ratio(double amplitude) {
-  return krylov_period_ratio(KrylovVariant::frequency_squared, amplitude);
-}
-
-/// One line per formula, the cheapest first: a division, six products and sums, a root and a division.
-struct Formula {
-  PeriodMethod method;
-  double (*ratio)(double);
-  double limit;
-  bool monotone;  // its error
+/// A libration in twice the working precision; k' = cos(amplitude/2).
+struct Libration {
+  DoubleDouble amplitude, k_prime;
 };
-const std::array<Formula, 4> kFormulas{
-    {{PeriodMethod::krylov, krylov_ratio, kPi, false},
-     {PeriodMethod::normal_form, krylov_ratio, kPi, false},
-     {PeriodMethod::series, series_ratio, kPi, true},
-     {PeriodMethod::krylov_squared, squared_ratio, krylov_limit(KrylovVariant::frequency_squared), true}}};
 
-const Formula& formula_of(PeriodMethod method) {
-  const auto found = std::find_if(kFormulas.begin(), kFormulas.end(),
-                                  [&](const Formula& formula) { return formula.method == method; });
-  if (found == kFormulas.end()) {
-    throw InvalidInput("formula", to_string(method), "one of normal_form, krylov, krylov_squared, series");
+Libration from_amplitude(double amplitude) { return {amplitude, sin_cos(0.5 * amplitude).cosine}; }
+
+Libration from_top_angle(double from_top) {
+  return {kPi - DoubleDouble(from_top), sin_cos(0.5 * from_top).sine};
+}
+
+Libration from_excess(double excess) {
+  const DoubleDouble k = ldexp(sqrt(two_sum(4.0, excess)), -1);
+  const DoubleDouble k_prime = ldexp(sqrt(DoubleDouble(-excess)), -1);
+  return {ldexp(atan2(k, k_prime), 1), k_prime};
+}
+
+/// The terms from A^4 on, over A^4, of omega/alpha = 1 - A^2/16 + ... and of its square 1 - A^2/8 + ...
+struct FrequencyTails {
+  std::array<double, kSeriesOrder - 3> frequency{}, square{};
+
+  FrequencyTails() {
+    const auto series = pendulum_frequency_series(kSeriesOrder).frequency;
+    for (std::size_t n = 4; n <= kSeriesOrder; ++n) {
+      frequency[n - 4] = series[n].value;
+      for (std::size_t i = 0; i <= n; ++i) square[n - 4] += series[i].value * series[n - i].value;
+    }
   }
-  return *found;
+
+  template <std::size_t N>
+  static double sum(const std::array<double, N>& tail, double amplitude) {
+    double value = 0.0;
+    for (auto term = tail.rbegin(); term != tail.rend(); ++term) value = std::fma(value, amplitude, *term);
+    return value * amplitude * amplitude * amplitude * amplitude;
+  }
+};
+
+/// Coefficients of A^2, A^4, ... A^12 in the period, exact as quotients.
+constexpr double kPeriodSeries[][2] = {{1.0, 16.0},
+                                       {11.0, 3072.0},
+                                       {173.0, 737280.0},
+                                       {22931.0, 1321205760.0},
+                                       {1319183.0, 951268147200.0},
+                                       {233526463.0, 2009078326886400.0}};
+constexpr std::size_t kFirstLeftOut = 14;
+
+template <typename Number>
+Number series_ratio(const Number& amplitude) {
+  const Number square = amplitude * amplitude;
+  Number sum = 0.0;
+  for (auto k = std::size(kPeriodSeries); k-- > 0;)
+    sum = square * (Number(kPeriodSeries[k][0]) / Number(kPeriodSeries[k][1]) + sum);
+  return Number(1.0) + sum;
 }
 
-double signed_error(const Formula& formula, double amplitude) {
-  const double exact_frequency = arithmetic_geometric_mean(1.0, std::cos(0.5 * amplitude));
-  return std::fma(formula.ratio(amplitude), exact_frequency, -1.0);
+/// -(what is left out)/exact.
+double series_error(const Libration& orbit) {
+  const DoubleDouble frequency = AgmSteps(1.0, orbit.k_prime).mean();
+  if (orbit.amplitude.hi >= kRemainderReach) return (series_ratio(orbit.amplitude) * frequency - kOne).hi;
+  static const auto period = pendulum_frequency_series(kRemainderOrder).period;
+  double left_out = 0.0;
+  for (std::size_t n = period.size(); n-- > kFirstLeftOut;)
+    left_out = std::fma(left_out, orbit.amplitude.hi, period[n].value);
+  return -left_out * std::pow(orbit.amplitude.hi, kFirstLeftOut) * frequency.hi;
 }
 
-/// Where the error changes its course: its maximum if it has one, else the end.
-double turning_point(const Formula& formula) {
-  const double end = std::nextafter(formula.limit, 0.0);
-  if (formula.monotone) return end;
-  // The maximum of (31); its zero lies beyond.
-  const auto descending = [&](double amplitude) { return -signed_error(formula, amplitude); };
-  return boost::math::tools::brent_find_minima(descending, 1.0, 2.5, 26).first;
+/// gamma/alpha of the formula, or its square: 1 - A^2/16 or 1 - A^2/8.
+DoubleDouble denominator(PeriodMethod formula, DoubleDouble amplitude) {
+  const int exponent = formula == PeriodMethod::krylov_squared ? -3 : -4;
+  return kOne - ldexp(amplitude * amplitude, exponent);
 }
 
-/// The crossing of a monotone error with `level` in [from, to]; `to` if there is none.
-double crossing(const Formula& formula, double level, double from, double to) {
-  const auto f = [&](double amplitude) { return signed_error(formula, amplitude) - level; };
-  const double first = f(from), last = f(to);
-  if (first == 0.0) return from;
-  if (std::signbit(first) == std::signbit(last)) return to;
-  std::uintmax_t most = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(
-      f, from, to, first, last, boost::math::tools::eps_tolerance<double>(48), most);
-  return low;
+double error_by_series(PeriodMethod formula, double amplitude) {
+  static const FrequencyTails tails;
+  const double below = denominator(formula, amplitude).hi;
+  if (formula != PeriodMethod::krylov_squared) return tails.sum(tails.frequency, amplitude) / below;
+  const double squared = tails.sum(tails.square, amplitude) / below;  // (1 + error)^2 - 1
+  return squared / (std::sqrt(1.0 + squared) + 1.0);
+}
+
+double relative_error(PeriodMethod formula, const Libration& orbit) {
+  if (formula == PeriodMethod::series) return series_error(orbit);
+  if (orbit.amplitude.hi < kSeriesReach) return error_by_series(formula, orbit.amplitude.hi);
+  const DoubleDouble below = denominator(formula, orbit.amplitude);
+  const DoubleDouble gamma = formula == PeriodMethod::krylov_squared ? sqrt(below) : below;
+  return ((AgmSteps(1.0, orbit.k_prime).mean() - gamma) / gamma).hi;
+}
+
+double ratio_of(PeriodMethod formula, double amplitude) {
+  if (formula == PeriodMethod::series) return series_ratio(amplitude);
+  if (formula == PeriodMethod::normal_form) return 1.0 / std::fma(-amplitude / 16.0, amplitude, 1.0);
+  return krylov_period_ratio(
+      formula == PeriodMethod::krylov ? KrylovVariant::frequency : KrylovVariant::frequency_squared,
+      amplitude);
+}
+
+FormulaError formula_of(PeriodMethod formula, const Libration& orbit) {
+  const bool meant = orbit.amplitude.hi < krylov_limit(formula == PeriodMethod::krylov_squared
+                                                           ? KrylovVariant::frequency_squared
+                                                           : KrylovVariant::frequency);
+  if (!meant) return {kNaN, kNaN};
+  return {ratio_of(formula, orbit.amplitude.hi), relative_error(formula, orbit)};
+}
+
+void check_formula(PeriodMethod formula) {
+  if (std::find(kPeriodFormulas.begin(), kPeriodFormulas.end(), formula) == kPeriodFormulas.end())
+    throw InvalidInput(std::string(to_string(formula)) + " is not an approximate formula of the period");
+}
+
+void check_tolerance(double tolerance) {
+  require(tolerance > 0.0 && std::isfinite(tolerance), "tolerance", tolerance, "a positive number");
+}
+
+double error_at(PeriodMethod formula, double amplitude) {
+  return relative_error(formula, from_amplitude(amplitude));
+}
+
+/// Where sign * error passes the tolerance upwards in [low, high], rounded down. The unknown is A^4, in which
+/// the error is nearly straight at first.
+double crossing(PeriodMethod formula, double tolerance, double sign, double low, double high) {
+  const auto amplitude_of = [](double fourth) { return std::sqrt(std::sqrt(fourth)); };
+  const auto excess = [&](double fourth) {
+    return sign * error_at(formula, amplitude_of(fourth)) / tolerance - 1.0;
+  };
+  const auto fourth_of = [](double amplitude) { return amplitude * amplitude * amplitude * amplitude; };
+  const double from = fourth_of(low), to = fourth_of(high);
+  const double below = excess(from), above = excess(to);
+  if (below >= 0.0) return low;
+  if (above <= 0.0) return high;
+  std::uintmax_t steps = 200;
+  const boost::math::tools::eps_tolerance<double> done(51);
+  const auto bracket = boost::math::tools::toms748_solve(excess, from, to, below, above, done, steps);
+  double amplitude = amplitude_of(bracket.first);
+  while (sign * error_at(formula, amplitude) > tolerance) amplitude = std::nextafter(amplitude, 0.0);
+  return amplitude;
+}
+
+/// Maximum of the error of (31), which is its only one.
+struct Peak {
+  double amplitude, error;
+};
+Peak peak_of_31() {
+  constexpr double kFrom = 1.5, kTo = 2.4;
+  const auto falling = [](double amplitude) { return -error_at(PeriodMethod::krylov, amplitude); };
+  const auto [amplitude, value] = boost::math::tools::brent_find_minima(falling, kFrom, kTo, 50);
+  return {amplitude, -value};
 }
 
 }  // namespace
 
-std::span<const PeriodMethod> period_formulas() {
-  static const auto methods = [] {
-    std::array<PeriodMethod, kFormulas.size()> result{};
-    std::transform(kFormulas.begin(), kFormulas.end(), result.begin(),
-                   [](const Formula& f) { return f.method; });
-    return result;
-  }();
-  return methods;
+FormulaError formula_of_amplitude(PeriodMethod formula, double amplitude) {
+  check_formula(formula);
+  require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
+  return formula_of(formula, from_amplitude(amplitude));
 }
 
-double formula_limit(PeriodMethod formula) { return formula_of(formula).limit; }
-
-FormulaError formula_error(PeriodMethod method, double amplitude) {
-  const Formula& formula = formula_of(method);
-  require(amplitude >= 0.0 && amplitude <= kPi, "amplitude", amplitude, "0 to 3.141592653589793");
-  return {formula.ratio(amplitude),
-          signed_error(formula, amplitude)};  // the ratio refuses what is beyond the pole
+FormulaError formula_of_from_top(PeriodMethod formula, double from_top) {
+  check_formula(formula);
+  require(from_top >= 0.0 && from_top <= kPi.hi, "from_top", from_top, "from 0 to pi");
+  if (from_top == 0.0) return {kNaN, kNaN};
+  return formula_of(formula, from_top_angle(from_top));
 }
 
-double formula_reach(PeriodMethod method, double tolerance) {
-  require(tolerance > 0.0, "tolerance", tolerance, "positive");
-  const double level = tolerance - kFormulaRounding;
-  if (!(level > 0.0)) return 0.0;
-  const Formula& formula = formula_of(method);
-  const double end = std::nextafter(formula.limit, 0.0), turn = turning_point(formula);
-  const double top = signed_error(formula, turn);
-  if (std::abs(top) > level) return crossing(formula, std::copysign(level, top), 0.0, turn);
-  return turn < end ? crossing(formula, -std::copysign(level, top), turn, end) : end;
+FormulaError formula_of_excess(PeriodMethod formula, double separatrix_excess) {
+  check_formula(formula);
+  const double e = separatrix_excess;
+  require(e >= -4.0 && std::isfinite(e), "separatrix_excess", e, "finite and >= -4");
+  if (e >= 0.0) return {kNaN, kNaN};
+  return formula_of(formula, from_excess(e));
+}
+
+double largest_amplitude(PeriodMethod formula, double tolerance) {
+  check_formula(formula);
+  check_tolerance(tolerance);
+  if (formula == PeriodMethod::krylov_squared) {
+    // One double below the limit the error is 1e7 or more; it grows all the way.
+    const double limit = std::nextafter(krylov_limit(KrylovVariant::frequency_squared), 0.0);
+    return crossing(formula, tolerance, 1.0, 0.0, limit);
+  }
+  if (formula == PeriodMethod::series) return crossing(formula, tolerance, -1.0, 0.0, kPi.hi);
+  static const Peak peak = peak_of_31();
+  if (tolerance < peak.error) return crossing(formula, tolerance, 1.0, 0.0, peak.amplitude);
+  return crossing(formula, tolerance, -1.0, peak.amplitude, kPi.hi);
 }
 
 CheapestPeriod::CheapestPeriod(double tolerance) {
-  for (const auto& formula : kFormulas) {
-    const double reach = formula_reach(formula.method, tolerance);
-    if (reach > 0.0) reaches_.push_back({formula.method, reach});
-  }
+  check_tolerance(tolerance);
+  for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
+    reach_[i] = tolerance > kRounding ? largest_amplitude(kPeriodFormulas[i], tolerance - kRounding) : -1.0;
 }
 
 PeriodMethod CheapestPeriod::method(double amplitude) const {
-  for (const auto& reach : reaches_) {
-    if (amplitude <= reach.amplitude) return reach.formula;
-  }
+  require(amplitude >= 0.0, "amplitude", amplitude, "a number >= 0");
+  for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
+    if (amplitude <= reach_[i]) return kPeriodFormulas[i];
   return PeriodMethod::elliptic;
 }
 
-Period CheapestPeriod::replace(const Period& exact, double amplitude, const Eigenfrequency& alpha) const {
-  const PeriodMethod chosen = std::isfinite(exact.ratio) ? method(amplitude) : exact.method;
-  if (chosen == exact.method) return exact;
-  const FormulaError formula = formula_error(chosen, amplitude);
-  const double period = 2.0 * kPi / alpha.value * formula.ratio;
-  return {formula.ratio, period, 0.25 * period, std::abs(formula.relative_error) + kFormulaRounding, chosen};
+namespace {
+
+/// The period of a libration by `method`; `exact` if that is the closed form.
+Period period_by(PeriodMethod method, const Libration& orbit, const Period& exact,
+                 const Eigenfrequency& alpha) {
+  if (method == PeriodMethod::elliptic) return exact;
+  const FormulaError formula = formula_of(method, orbit);
+  const double period = formula.ratio * period_of_amplitude(0.0, alpha).period;
+  return {formula.ratio, period, 0.25 * period, std::abs(formula.relative_error) + kRounding, method};
+}
+
+}  // namespace
+
+Period CheapestPeriod::of_amplitude(double amplitude, const Eigenfrequency& alpha) const {
+  const Period exact = period_of_amplitude(amplitude, alpha);
+  const PeriodMethod chosen = method(amplitude);
+  return chosen == PeriodMethod::elliptic ? exact
+                                          : period_by(chosen, from_amplitude(amplitude), exact, alpha);
+}
+
+Period CheapestPeriod::of_from_top(double from_top, const Eigenfrequency& alpha) const {
+  const Period exact = period_of_from_top(from_top, alpha);
+  if (exact.method == PeriodMethod::separatrix) return exact;
+  const Libration orbit = from_top_angle(from_top);
+  return period_by(method(orbit.amplitude.hi), orbit, exact, alpha);
+}
+
+Period CheapestPeriod::of_excess(double separatrix_excess, const Eigenfrequency& alpha) const {
+  const Period exact = period_of_excess(separatrix_excess, alpha);
+  if (separatrix_excess >= 0.0) return exact;
+  const Libration orbit = from_excess(separatrix_excess);
+  return period_by(method(orbit.amplitude.hi), orbit, exact, alpha);
 }
 
 }  // namespace strutt

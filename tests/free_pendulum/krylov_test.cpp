@@ -66,7 +66,7 @@ TEST_CASE("(22) and (31) are one function of the amplitude", "[free_pendulum][pa
 TEST_CASE("errors of both formulas are those against the elliptic integral", "[free_pendulum][reference]") {
   for (const KrylovVariant variant : kBoth) {
     for (double amplitude = 0.05; amplitude < 2.82; amplitude += 0.05) {
-      const FormulaError formula = formula_error(
+      const FormulaError formula = formula_of_amplitude(
           variant == KrylovVariant::frequency ? PeriodMethod::krylov : PeriodMethod::krylov_squared,
           amplitude);
       const Real exact = pendulum_ratio(amplitude), own = Real(amplitude) * amplitude;
@@ -79,7 +79,7 @@ TEST_CASE("errors of both formulas are those against the elliptic integral", "[f
 
 TEST_CASE("the paper's formula is off by what the issue tells", "[free_pendulum][paper]") {
   const auto error = [](double amplitude) {
-    return formula_error(PeriodMethod::krylov, amplitude).relative_error;
+    return formula_of_amplitude(PeriodMethod::krylov, amplitude).relative_error;
   };
   CHECK(std::abs(error(1.0)) == Approx(3.1e-4).epsilon(0.02));
   CHECK(std::abs(error(2.0)) == Approx(3.3e-3).epsilon(0.02));
@@ -88,7 +88,7 @@ TEST_CASE("the paper's formula is off by what the issue tells", "[free_pendulum]
   CHECK(error(2.46308) > 0.0);
   CHECK(error(2.46310) < 0.0);
   for (double amplitude = 0.1; amplitude < 2.4; amplitude += 0.1)
-    CHECK(std::abs(formula_error(PeriodMethod::krylov_squared, amplitude).relative_error) >
+    CHECK(std::abs(formula_of_amplitude(PeriodMethod::krylov_squared, amplitude).relative_error) >
           std::abs(error(amplitude)));
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("linear amplitude: its cost against the energy", "[free_pendulum][pape
     const Real exact = pendulum_ratio(amplitude);
     const double by_r =
         (Real(krylov_period_ratio(KrylovVariant::frequency, r)) / exact - 1).convert_to<double>();
-    const double by_a = formula_error(PeriodMethod::krylov, amplitude).relative_error;
+    const double by_a = formula_of_amplitude(PeriodMethod::krylov, amplitude).relative_error;
     CHECK(by_a / std::pow(amplitude, 4) == Approx(1.0 / 3072.0).epsilon(0.02));
     CHECK((by_r - by_a) / std::pow(amplitude, 4) == Approx(-1.0 / 192.0).epsilon(0.02));
   }
@@ -141,8 +141,8 @@ TEST_CASE("formulas are refused beyond their range", "[free_pendulum][misuse]") 
   CHECK_THROWS_AS(krylov_period_ratio(KrylovVariant::frequency, 4.0), InvalidInput);
   CHECK_THROWS_AS(krylov_period_ratio(KrylovVariant::frequency_squared, 2.9), InvalidInput);
   CHECK_THROWS_AS(krylov_frequency_ratio(KrylovVariant::frequency, NAN), InvalidInput);
-  CHECK_THROWS_AS(formula_error(PeriodMethod::krylov, 3.2), InvalidInput);
-  CHECK_THROWS_AS(formula_error(PeriodMethod::krylov, -0.1), InvalidInput);
+  CHECK_THROWS_AS(formula_of_amplitude(PeriodMethod::krylov, 3.2), InvalidInput);
+  CHECK_THROWS_AS(formula_of_amplitude(PeriodMethod::krylov, -0.1), InvalidInput);
   CHECK_THROWS_AS(KrylovMotion(KrylovVariant::frequency, 0.0, 1.0), InvalidInput);
   CHECK_THROWS_AS(cubic_period_ratio(2.5), InvalidInput);
   CHECK_THROWS_AS(cubic_period_ratio(-1.0), InvalidInput);

@@ -1,5 +1,3 @@
-// The approximate formulas of the period: their true errors, how far they reach, and the choice of the
-// cheapest.
 #include "strutt/free_pendulum/period_formulas.hpp"
 
 #include <boost/math/special_functions/ellint_1.hpp>
@@ -9,100 +7,188 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
-#include "strutt/free_pendulum/energy.hpp"
 #include "strutt/free_pendulum/frequency_series.hpp"
+#include "strutt/free_pendulum/normal_form.hpp"
 
 using namespace strutt;
 
 namespace {
 
-using Real = boost::multiprecision::cpp_bin_float_50;
+using Real = boost::multiprecision::cpp_bin_float_100;
+constexpr double kPiDouble = std::numbers::pi;
+constexpr double kSqrt8 = 2.0 * std::numbers::sqrt2;
+constexpr auto kNormalForm = PeriodMethod::normal_form;
+constexpr auto kKrylov = PeriodMethod::krylov;
+constexpr auto kSquared = PeriodMethod::krylov_squared;
+constexpr auto kSeries = PeriodMethod::series;
 
-Real exact_ratio(double amplitude) {
-  return 2 * boost::math::ellint_1(sin(Real(amplitude) / 2)) / boost::math::constants::pi<Real>();
+/// 2 K(k)/pi with k = sin(amplitude/2).
+Real exact_ratio(const Real& amplitude) {
+  return 2 * boost::math::ellint_1(sin(amplitude / 2)) / boost::math::constants::pi<Real>();
 }
 
-/// ratio/exact - 1 of the formula as it stands in the header, in 50 digits.
-Real true_error(PeriodMethod formula, double amplitude) {
-  const Real a = Real(amplitude) * amplitude;
-  if (formula == PeriodMethod::krylov_squared) return 1 / sqrt(1 - a / 8) / exact_ratio(amplitude) - 1;
-  if (formula != PeriodMethod::series) return 1 / (1 - a / 16) / exact_ratio(amplitude) - 1;
+/// The series of the period up to A^12, from the rational numbers.
+Real series_ratio(const Real& amplitude) {
   static const auto coefficients = pendulum_frequency_series(12).period;
   Real sum = 0;
-  for (auto k = coefficients.size(); k-- > 0;) {
+  for (auto k = coefficients.size(); k-- > 0;)
     sum = sum * amplitude + Real(coefficients[k].numerator) / Real(coefficients[k].denominator);
-  }
-  return sum / exact_ratio(amplitude) - 1;
+  return sum;
+}
+
+Real formula_ratio(PeriodMethod formula, const Real& amplitude) {
+  if (formula == kSeries) return series_ratio(amplitude);
+  const Real square = amplitude * amplitude;
+  return formula == kSquared ? 1 / sqrt(1 - square / 8) : 1 / (1 - square / 16);
+}
+
+Real true_error(PeriodMethod formula, const Real& amplitude) {
+  return formula_ratio(formula, amplitude) / exact_ratio(amplitude) - 1;
+}
+
+void check_error(const FormulaError& found, PeriodMethod formula, const Real& amplitude) {
+  const Real error = true_error(formula, amplitude);
+  INFO("amplitude " << amplitude.convert_to<double>());
+  CHECK(abs(Real(found.relative_error) - error) <=
+        1e-13 * abs(error) + Real("1e-99"));  // what 100 digits leave
+  CHECK(abs(Real(found.ratio) / formula_ratio(formula, amplitude) - 1) <= 7 * 0x1p-53);
 }
 
 }  // namespace
 
-TEST_CASE("the error of a formula is the one against 50 digits", "[free_pendulum][reference]") {
-  for (const auto formula : period_formulas()) {
-    for (double amplitude = 0.0; amplitude < formula_limit(formula); amplitude += 0.01) {
-      const FormulaError found = formula_error(formula, amplitude);
-      INFO(to_string(formula) << " at " << amplitude);
-      CHECK(abs(found.relative_error - true_error(formula, amplitude)) <=
-            1.5e-15 * std::max(1.0, found.ratio));
+TEST_CASE("(22) has the coefficient that the normal form derives", "[free_pendulum][paper]") {
+  const auto field = [](const Jet& phi, const Jet& velocity) { return JetPair{velocity, -sin(phi)}; };
+  const NormalForm form = normal_form(taylor_expansion(field, {0.0, 0.0}));
+  for (const double amplitude : {0.0, 0.3, 1.0, 2.0, 3.0})
+    CHECK(formula_of_amplitude(kNormalForm, amplitude).ratio ==
+          Approx(normal_form_period(form, amplitude) / (2.0 * std::numbers::pi)).epsilon(1e-15));
+}
+
+TEST_CASE("formula errors keep their digits from 1e-60 rad up", "[free_pendulum][reference]") {
+  for (const PeriodMethod formula : kPeriodFormulas) {
+    for (double amplitude = 1e-3; amplitude < kPiDouble; amplitude += 0.0317)
+      if (formula != kSquared || amplitude < kSqrt8)
+        check_error(formula_of_amplitude(formula, amplitude), formula, amplitude);
+    for (const double amplitude : {1e-5, 0.01, 0.0999999, 0.1, 0.100001, 0.2999, 0.3, 0.3001})
+      check_error(formula_of_amplitude(formula, amplitude), formula, amplitude);
+    CHECK(formula_of_amplitude(formula, 0.0).relative_error == 0.0);
+  }
+  // The first terms left, from the series of the frequency.
+  CHECK(formula_of_amplitude(kKrylov, 1e-60).relative_error == Approx(1e-240 / 3072).epsilon(1e-13));
+  CHECK(formula_of_amplitude(kSquared, 1e-60).relative_error == Approx(1e-240 * 7 / 3072).epsilon(1e-13));
+  check_error(formula_of_amplitude(kKrylov, kPiDouble), kKrylov, kPiDouble);
+}
+
+TEST_CASE("formula errors of orbits told from the top or by the excess", "[free_pendulum][reference]") {
+  const Real pi = boost::math::constants::pi<Real>();
+  for (const PeriodMethod formula : {kKrylov, kSquared, kSeries}) {
+    for (const double from_top : {0.4, 1.0, 2.0, 3.0, 3.14, 3.141592653589793}) {
+      check_error(formula_of_from_top(formula, from_top), formula, pi - Real(from_top));
+      const double excess = -from_top;
+      check_error(formula_of_excess(formula, excess), formula, 2 * acos(sqrt(Real(-excess)) / 2));
+    }
+    check_error(formula_of_excess(formula, std::nextafter(-4.0, 0.0)), formula,
+                2 * acos(sqrt(-Real(std::nextafter(-4.0, 0.0))) / 2));
+    CHECK(formula_of_excess(formula, -4.0).relative_error == 0.0);
+  }
+  // T/T0 = (2/pi) ln(4/k') next to the separatrix, where pi - from_top has no digit of from_top left.
+  const double exact = 2.0 / kPiDouble * (std::log(8.0) - std::log(1e-300));
+  const double ratio = 1.0 / (1.0 - kPiDouble * kPiDouble / 16.0);
+  CHECK(formula_of_from_top(kKrylov, 1e-300).relative_error == Approx(ratio / exact - 1.0).epsilon(1e-14));
+  CHECK(formula_of_excess(kKrylov, -1e-300).relative_error ==
+        Approx(formula_of_from_top(kKrylov, 1e-150).relative_error).epsilon(1e-14));
+}
+
+TEST_CASE("no formula where it has no meaning", "[free_pendulum][misuse]") {
+  for (const double excess : {0.0, 1e-300, 1.0, 1e10})
+    CHECK(std::isnan(formula_of_excess(kKrylov, excess).ratio));
+  CHECK(std::isnan(formula_of_from_top(kNormalForm, 0.0).relative_error));
+  CHECK(std::isnan(formula_of_amplitude(kSquared, 2.8285).relative_error));
+  CHECK(std::isnan(formula_of_amplitude(kSquared, kPiDouble).ratio));
+  CHECK_THROWS_AS(formula_of_amplitude(kKrylov, 3.15), InvalidInput);
+  CHECK_THROWS_AS(formula_of_amplitude(kKrylov, NAN), InvalidInput);
+  CHECK_THROWS_AS(formula_of_from_top(kKrylov, -0.1), InvalidInput);
+  CHECK_THROWS_AS(formula_of_excess(kKrylov, -4.1), InvalidInput);
+  CHECK_THROWS_AS(formula_of_amplitude(PeriodMethod::elliptic, 1.0), InvalidInput);
+  CHECK_THROWS_AS(largest_amplitude(PeriodMethod::separatrix, 1e-3), InvalidInput);
+  CHECK_THROWS_AS(largest_amplitude(kKrylov, 0.0), InvalidInput);
+  CHECK_THROWS_AS(CheapestPeriod(NAN), InvalidInput);
+  CHECK_THROWS_AS(CheapestPeriod(1e-3).method(-1.0), InvalidInput);
+  CHECK_THROWS_AS(CheapestPeriod(1e-3).of_amplitude(4.0), InvalidInput);
+}
+
+TEST_CASE("largest amplitudes, against roots found with 40 digits", "[free_pendulum][reference]") {
+  struct Known {
+    double tolerance, krylov, squared;
+  };
+  for (const auto& known : {Known{1e-1, 2.9849118690353382214, 2.1561288057668703879},
+                            Known{1e-2, 2.6528361231152954564, 1.370223088562239821},
+                            Known{5e-3, 2.5824781223166790296, 1.1711003252240519105},
+                            Known{1e-3, 1.3576132210161610735, 0.80013132596393384975},
+                            Known{1e-6, 0.23553689468559349598, 0.14465980301877113268}}) {
+    CHECK(largest_amplitude(kNormalForm, known.tolerance) == Approx(known.krylov).epsilon(1e-13));
+    CHECK(largest_amplitude(kKrylov, known.tolerance) == Approx(known.krylov).epsilon(1e-13));
+    CHECK(largest_amplitude(kSquared, known.tolerance) == Approx(known.squared).epsilon(1e-13));
+  }
+  CHECK(largest_amplitude(kKrylov, 1e-15) == Approx(0.0013239003871955611295).epsilon(1e-13));
+  CHECK(largest_amplitude(kKrylov, 1e-100) == Approx(std::pow(3072e-100, 0.25)).epsilon(1e-13));
+  CHECK(largest_amplitude(kKrylov, 1.0) == kPiDouble);
+  // On both sides of the maximum 3.5295160120862889609e-3, at 2.126000712691317753 rad.
+  CHECK(largest_amplitude(kKrylov, 3.52951601e-3) == Approx(2.126).margin(1e-3));
+  CHECK(largest_amplitude(kKrylov, 3.52951602e-3) > 2.5);
+}
+
+TEST_CASE("the error is within the tolerance on all of the range, and no further", "[free_pendulum][exact]") {
+  for (const PeriodMethod formula : {kKrylov, kSquared, kSeries}) {
+    for (const double tolerance : {1e-12, 1e-6, 1e-3, 3.5e-3, 4e-3, 1e-2, 1e-1}) {
+      const double reach = largest_amplitude(formula, tolerance);
+      for (int i = 1; i <= 60; ++i)
+        CHECK(abs(true_error(formula, Real(reach) * i / 60)) <= tolerance * (1 + 1e-13));
+      CHECK(abs(true_error(formula, Real(reach) * (1 + 1e-9))) > tolerance);
     }
   }
 }
 
-TEST_CASE("a formula is within the tolerance up to its reach, and not beyond", "[free_pendulum][reference]") {
-  for (const auto formula : period_formulas()) {
-    for (const double tolerance : {1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 3.4e-3, 3.5e-3, 1e-2, 0.1}) {
-      const double reach = formula_reach(formula, tolerance);
-      INFO(to_string(formula) << " within " << tolerance << " up to " << reach);
-      REQUIRE(reach > 0.0);
-      for (int k = 1; k <= 200; ++k) CHECK(abs(true_error(formula, reach * k / 200)) <= tolerance);
-      if (reach < formula_limit(formula) - 1e-6)
-        CHECK(abs(true_error(formula, reach * (1 + 1e-5))) > tolerance - 2 * kFormulaRounding);
-    }
-    CHECK(formula_reach(formula, 1e-15) == 0.0);
-  }
-}
-
-TEST_CASE("the error of (31) is not monotone: the first crossing counts", "[free_pendulum][paper]") {
-  // It rises to 3.5e-3 and vanishes at 2.46309 before it leaves for -1.
-  CHECK(formula_reach(PeriodMethod::krylov, 3e-3) < 2.0);
-  CHECK(formula_reach(PeriodMethod::krylov, 4e-3) > 2.46309);
-  CHECK(std::abs(formula_error(PeriodMethod::krylov, 2.46309).relative_error) < 1e-6);
-  // The paper: "quite good agreement for 0 <= mu < 2.7". Measured: within 1.47 percent.
-  CHECK(formula_reach(PeriodMethod::krylov, 0.0147) > 2.7);
-  CHECK(formula_reach(PeriodMethod::krylov, 0.0146) < 2.7);
-}
-
-TEST_CASE("the cheapest formula is chosen, with a bound of its error", "[free_pendulum][period]") {
-  const CheapestPeriod rough(1e-3), fine(1e-9), finest(5e-16);
-  CHECK(rough.method(1.0) == PeriodMethod::krylov);
-  CHECK(rough.method(1.5) == PeriodMethod::series);
-  CHECK(rough.method(3.1) == PeriodMethod::elliptic);
-  CHECK(fine.method(0.01) == PeriodMethod::krylov);
-  CHECK(fine.method(0.5) == PeriodMethod::series);
-  CHECK(finest.method(1e-3) == PeriodMethod::elliptic);
-  CHECK(rough.method(std::nan("")) == PeriodMethod::elliptic);
-
-  const Eigenfrequency alpha{3.0, 0.0};
-  for (const auto* cheapest : {&rough, &fine, &finest}) {
-    for (double from_top = 0.04; from_top < 3.14; from_top += 0.05) {
-      const Period exact = period_of_from_top(from_top, alpha);
-      const Period found = cheapest->replace(exact, std::numbers::pi - from_top, alpha);
-      const Real truth =
-          2 * boost::math::ellint_1(cos(Real(from_top) / 2)) / boost::math::constants::pi<Real>();
-      CHECK(abs(Real(found.ratio) / truth - 1) <= found.error);
-      CHECK(found.period == Approx(2.0 * std::numbers::pi / 3.0 * found.ratio).epsilon(1e-15));
+TEST_CASE("the cheapest formula is good enough, and its error is bounded", "[free_pendulum][reference]") {
+  const Real pi = boost::math::constants::pi<Real>();
+  const Eigenfrequency alpha{3.7, 0.0};
+  for (const double tolerance : {5e-16, 1e-15, 2e-15, 1e-12, 1e-6, 1e-3, 1e-2, 1e-1}) {
+    const CheapestPeriod cheapest(tolerance);
+    const auto check = [&](const Period& found, const Real& amplitude) {
+      INFO("tolerance " << tolerance << ", amplitude " << amplitude.convert_to<double>());
+      const Real exact = exact_ratio(amplitude);
+      CHECK(found.error <= tolerance);
+      CHECK(abs(Real(found.ratio) / exact - 1) <= found.error);
+      CHECK(abs(Real(found.period) / (exact * 2 * pi / Real(alpha.value)) - 1) <= found.error);
+    };
+    for (double x = 1e-4; x < kPiDouble; x += 0.0713) {
+      check(cheapest.of_amplitude(x, alpha), x);
+      check(cheapest.of_from_top(x, alpha), pi - Real(x));
+      check(cheapest.of_excess(-x, alpha), 2 * acos(sqrt(Real(x)) / 2));
     }
   }
-  CHECK(rough.replace(period_of_excess(1.0), energy_integral(1.0).amplitude).method ==
-        PeriodMethod::elliptic);
-  CHECK(rough.replace(period_of_from_top(0.0), std::numbers::pi).method == PeriodMethod::separatrix);
 }
 
-TEST_CASE("formulas refuse what they are not defined for", "[free_pendulum][misuse]") {
-  CHECK_THROWS_AS(formula_error(PeriodMethod::krylov_squared, 2.9), InvalidInput);
-  CHECK_THROWS_AS(formula_error(PeriodMethod::series, -0.1), InvalidInput);
-  CHECK_THROWS_AS(formula_error(PeriodMethod::krylov, std::nan("")), InvalidInput);
-  CHECK_THROWS_AS(formula_error(PeriodMethod::elliptic, 1.0), InvalidInput);
-  CHECK_THROWS_AS(formula_reach(PeriodMethod::krylov, 0.0), InvalidInput);
-  CHECK_THROWS_AS(CheapestPeriod(std::nan("")), InvalidInput);
+TEST_CASE("which formula is chosen", "[free_pendulum][exact]") {
+  const CheapestPeriod coarse(1e-3), fine(1e-15);
+  CHECK(coarse.method(1.3576) == kNormalForm);
+  CHECK(coarse.method(1.3577) == kSeries);
+  CHECK(coarse.method(2.2390) == kSeries);
+  // Here (31) happens to be right, but not on the way.
+  CHECK(coarse.method(2.46309) == PeriodMethod::elliptic);
+  CHECK(CheapestPeriod(4e-3).method(2.46309) == kNormalForm);
+  CHECK(fine.method(0.0) == PeriodMethod::elliptic);
+  CHECK(coarse.of_amplitude(1.0).method == kNormalForm);
+  CHECK(coarse.of_amplitude(1.0).ratio == 1.0 / (1.0 - 1.0 / 16.0));
+  CHECK(coarse.of_from_top(0.0).method == PeriodMethod::separatrix);
+  CHECK(coarse.of_excess(0.0).method == PeriodMethod::separatrix);
+  CHECK(coarse.of_excess(1e-3).method == PeriodMethod::elliptic);
+}
+
+TEST_CASE("quite good agreement for 0 <= mu < 2.7, as a number", "[free_pendulum][paper]") {
+  double worst = 0.0;
+  for (int i = 0; i <= 2700; ++i)
+    worst = std::max(worst, std::abs(formula_of_amplitude(kKrylov, i * 1e-3).relative_error));
+  CHECK(worst == Approx(0.01463832802374899886).epsilon(1e-12));  // at 2.7 itself
+  CHECK(largest_amplitude(kKrylov, worst) == Approx(2.7).epsilon(1e-12));
 }
