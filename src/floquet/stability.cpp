@@ -111,7 +111,9 @@ std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system)
                          h.sine.size() > 0 ? h.sine(0, 0) / mass : 0.0});
   }
   const auto w = PeriodicFunction::fourier(system.stiffness.mean(0, 0) / mass, std::move(harmonics));
-  return hill_equation(system.period, w, *c);
+  HillEquation equation = hill_equation(system.period, w, *c);
+  equation.plain_kappa = true;
+  return equation;
 }
 
 Method method_for(const LinearModel& model, Method asked) {

@@ -20,7 +20,9 @@ double HillEquation::epsilon() const {
 
 double HillEquation::canonical_damping() const { return damping / angular_frequency; }
 
-double HillEquation::canonical_kappa() const { return std::max(1.0, std::sqrt(std::abs(delta()))); }
+double HillEquation::canonical_kappa() const {
+  return plain_kappa ? 1.0 : std::max(1.0, std::sqrt(std::abs(delta())));
+}
 
 void HillEquation::validate() const {
   require(angular_frequency > 0.0 && std::isfinite(angular_frequency), "angular frequency", angular_frequency,

@@ -21,7 +21,8 @@ Stability at(const LinearModel& model, double tolerance = 1e-11) {
 HillEquation lame(int n, double k, double h) {
   const double period = 2.0 * boost::math::ellint_1(k);
   std::vector<double> samples;
-  constexpr int kSamples = 32;  // the Fourier coefficients of sn^2 fall like nome^j, nome < 0.064 for k <= 0.8
+  constexpr int kSamples =
+      32;  // the Fourier coefficients of sn^2 fall like nome^j, nome < 0.064 for k <= 0.8
   for (int j = 0; j < kSamples; ++j) {
     const double sn = boost::math::jacobi_sn(k, period * j / kSamples);
     samples.push_back(h - n * (n + 1) * k * k * sn * sn);
@@ -67,17 +68,19 @@ TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[flo
     CHECK(at(lame(n, k, edges[j] + 1e-7)).verdict == above);
     CHECK(std::abs(at(lame(n, k, edges[j])).margin) < 1e-10);
   }
-  // Every later gap is closed. A gap can only be where the winding number is a half n/2; find these places, and see
-  // that the margin only touches zero there, from above.
+  // Every later gap is closed. A gap can only be where the winding number is a half n/2; find these places,
+  // and see that the margin only touches zero there, from above.
   const double from = edges.back() + 1e-3, to = edges.back() + 30.0;
   const auto halves = [&](double h) { return 2.0 * at(lame(n, k, h), 1e-9).winding; };
-  const int first = static_cast<int>(std::ceil(halves(from))), last = static_cast<int>(std::floor(halves(to)));
+  const int first = static_cast<int>(std::ceil(halves(from))),
+            last = static_cast<int>(std::floor(halves(to)));
   CHECK(first == n + 1);
   CHECK(last >= n + 3);
   for (int j = first; j <= last; ++j) {
     std::uintmax_t steps = 60;
-    const auto [below, above] = boost::math::tools::toms748_solve(
-        [&](double h) { return halves(h) - j; }, from, to, [](double a, double b) { return b - a < 1e-9 * b; }, steps);
+    const auto [below, above] =
+        boost::math::tools::toms748_solve([&](double h) { return halves(h) - j; }, from, to,
+                                          [](double a, double b) { return b - a < 1e-9 * b; }, steps);
     const auto closed = at(lame(n, k, 0.5 * (below + above)));
     CHECK(closed.verdict != Verdict::unstable);
     CHECK(std::abs(closed.margin) < 1e-11);
@@ -91,13 +94,15 @@ TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[flo
 TEST_CASE("Meissner's equation agrees with its closed form by both routes", "[floquet][known][N19]") {
   MonodromyEngine engine;
   for (const double amplitude : {0.3, 1.5, 4.0}) {
-    const auto equation = hill_equation(2.0 * std::numbers::pi, PeriodicFunction::square(1.1, amplitude, 0.0));
+    const auto equation =
+        hill_equation(2.0 * std::numbers::pi, PeriodicFunction::square(1.1, amplitude, 0.0));
     // D = 2 c1 c2 - (s1/s2 + s2/s1) z1 z2, half a period of each piece
     const std::complex<double> a = std::sqrt(std::complex<double>(1.1 + amplitude));
     const std::complex<double> b = std::sqrt(std::complex<double>(1.1 - amplitude));
     const double pi = std::numbers::pi;
     const double expected =
-        (2.0 * std::cos(a * pi) * std::cos(b * pi) - (a / b + b / a) * std::sin(a * pi) * std::sin(b * pi)).real();
+        (2.0 * std::cos(a * pi) * std::cos(b * pi) - (a / b + b / a) * std::sin(a * pi) * std::sin(b * pi))
+            .real();
     for (const auto method : {Method::exact, Method::arkode, Method::cvode}) {
       const auto result = analyse(engine, equation, {.tolerance = 1e-9, .method = method});
       const double size = std::max(1.0, result.matrix.cwiseAbs().maxCoeff());
@@ -138,9 +143,30 @@ TEST_CASE("SI and canonical scenes of one rod give the same verdict and growth",
   }
 }
 
+TEST_CASE("A system with one degree of freedom has the scaled error of a system, kappa = 2 pi/T",
+          "[floquet][known]") {
+  LinearPeriodicSystem system;
+  system.period = 2.0 * std::numbers::pi;
+  system.mass = Eigen::MatrixXd::Constant(1, 1, 1.0);
+  system.stiffness.mean = Eigen::MatrixXd::Constant(1, 1, 2520.0);
+  system.stiffness.harmonics.push_back({1, Eigen::MatrixXd::Constant(1, 1, 1.0), {}});
+  const auto hill = as_hill_equation(system);
+  REQUIRE(hill.has_value());
+  CHECK(hill->canonical_kappa() == 1.0);
+
+  const auto exact = at(system, 1e-11), coarse = at(system, 1e-6);
+  REQUIRE(exact.outcome == Outcome::converged);
+  const Eigen::Matrix2d difference = (coarse.matrix - exact.matrix).cwiseAbs();
+  const double largest = std::max(1.0, exact.matrix.cwiseAbs().maxCoeff());
+  REQUIRE(largest > 10.0);  // m21, which kappa = 50 would have divided
+  CHECK(difference.maxCoeff() / largest <= coarse.error + exact.error);
+  CHECK(coarse.error <= 1e-6);
+}
+
 TEST_CASE("Parts that were not asked for are not computed", "[floquet][cost]") {
   MonodromyEngine engine;
-  const auto result = analyse(engine, mathieu_delta_epsilon(1.0, 0.5), {}, {.winding = false, .matrix = false});
+  const auto result =
+      analyse(engine, mathieu_delta_epsilon(1.0, 0.5), {}, {.winding = false, .matrix = false});
   CHECK(std::isnan(result.winding));
   CHECK(result.matrix.size() == 0);
   CHECK(result.verdict == Verdict::unstable);

@@ -46,7 +46,8 @@ Stability analyse(MonodromyEngine& engine, const LinearModel& model, const Monod
 /// The method that `analyse` begins with when `asked` for; throws InvalidInput if it does not fit (monodromy.hpp).
 Method method_for(const LinearModel& model, Method asked);
 
-/// The Hill equation that a system with one degree of freedom, constant damping c >= 0 is; nothing otherwise.
+/// The Hill equation that a system with one degree of freedom, constant damping c >= 0 is, with the kappa of a system,
+/// 2 pi/T; nothing otherwise.
 std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system);
 
 }  // namespace strutt

@@ -15,12 +15,14 @@ struct HillEquation {
   /// Bound of the relative error of each coefficient of W against the inputs as given, from the roundings
   /// made on the way (0: the doubles are the inputs). Enters every error bound.
   double coefficient_error = 0.0;
+  bool plain_kappa = false;  ///< kappa = Omega whatever the coefficient, as for systems
 
   double period() const;             ///< T = 2 pi/Omega
   double delta() const;              ///< mean of W
   double epsilon() const;            ///< amplitude of the first harmonic of W (square form: largest |W - delta|), >= 0
   double canonical_damping() const;  ///< c/Omega
-  /// kappa/Omega with kappa = max(2 pi/T, sqrt|mean of w|), the frequency by which x' is made comparable with x.
+  /// kappa/Omega with kappa = max(2 pi/T, sqrt|mean of w|), the frequency by which x' is made comparable with x;
+  /// 1 with plain_kappa.
   double canonical_kappa() const;
 
   void validate() const;  ///< throws InvalidInput
