@@ -31,9 +31,9 @@ RightHandSide hill_right_hand_side(const PeriodicFunction& w, double from, doubl
   };
 }
 
-Propagators closed_form_propagators(const HillEquation& equation, const PeriodicFunction& w,
+Propagators<Eigen::Matrix2d> closed_form_propagators(const HillEquation& equation, const PeriodicFunction& w,
                                     const std::vector<Segment>& segments, double kappa) {
-  Propagators result;
+  Propagators<Eigen::Matrix2d> result;
   const double c = equation.canonical_damping();
   // c^2/4 is rounded once it is there, and so is the difference
   const double relative = equation.coefficient_error + (c == 0.0 ? 0.0 : 4.0 * kUnit);
@@ -48,10 +48,10 @@ Propagators closed_form_propagators(const HillEquation& equation, const Periodic
   return result;
 }
 
-Propagators splitting_propagators(SplittingPropagators& tables, const PeriodicFunction& w,
+Propagators<Eigen::Matrix2d> splitting_propagators(SplittingPropagators& tables, const PeriodicFunction& w,
                                   const std::vector<Segment>& pieces, double kappa, double coefficient_error,
                                   const PropagatorOptions& options) {
-  Propagators result;
+  Propagators<Eigen::Matrix2d> result;
   result.truncation_share = 0.0;
   for (const auto& piece : pieces) {
     if (options.cancel != nullptr && options.cancel->load()) result.outcome = Outcome::cancelled;
@@ -62,16 +62,15 @@ Propagators splitting_propagators(SplittingPropagators& tables, const PeriodicFu
     result.cost += step.cost;
     result.estimate_cost += step.check_cost;
     result.truncation_share = std::max(result.truncation_share, step.truncation_share);
-    result.checks.push_back({std::move(step.check), {}});
-    result.factors.push_back(std::move(step.matrix));
+    result.append(std::move(step.matrix), std::move(step.check));
   }
   return result;
 }
 
-Propagators integrated_propagators(LinearPropagator& integrator, const PeriodicFunction& w,
+Propagators<Eigen::Matrix2d> integrated_propagators(LinearPropagator& integrator, const PeriodicFunction& w,
                                    const std::vector<Segment>& segments, double kappa,
                                    double coefficient_error, const PropagatorOptions& options) {
-  Propagators result;
+  Propagators<Eigen::Matrix2d> result;
   for (const auto& segment : segments) {
     const auto piece = w.piece(0.5 * (segment.from + segment.to));
     const double length = segment.to - segment.from;
@@ -100,9 +99,9 @@ struct Undamped {
   std::vector<Segment> pieces;
 };
 
-Monodromy put_together(const HillEquation& equation, const Undamped& y, const std::vector<Segment>& segments,
-                       const std::vector<BoundedMatrix>& factors) {
-  Monodromy result;
+HillMonodromy put_together(const HillEquation& equation, const Undamped& y, const std::vector<Segment>& segments,
+                       const std::vector<BoundedMatrix2>& factors) {
+  HillMonodromy result;
   result.kappa = y.kappa * equation.angular_frequency;
   result.half_damping = equation.canonical_damping() * pi;
   if (y.centre) {
@@ -120,14 +119,14 @@ Monodromy put_together(const HillEquation& equation, const Undamped& y, const st
 
 }  // namespace
 
-Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
+HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
                          const MonodromyOptions& options) {
   const Undamped y(equation);
   // Only the steps of SUNDIALS need short intervals; a closed form cut into parts would turn proved zeros
   // into rounding.
   const bool integrated = method == Method::arkode || method == Method::cvode;
   const auto segments = integrated ? subdivided(y.pieces, y.w) : y.pieces;
-  if (segments.empty()) return without_result(method, Outcome::step_limit);
+  if (segments.empty()) return without_result<Eigen::Matrix2d>(method, Outcome::step_limit);
   const double coefficient_error =
       evaluation_error(equation) + (y.centre ? equation.coefficient.asymmetry(*y.centre) : 0.0);
   const auto propagators = [&](double local_tolerance) {
@@ -138,9 +137,9 @@ Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Met
                : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa, coefficient_error,
                                         wanted);
   };
-  Monodromy result = tighten(method, options.tolerance, [&](double local_tolerance) {
-    const Propagators found = propagators(local_tolerance);
-    Monodromy attempt;
+  HillMonodromy result = tighten(method, options.tolerance, [&](double local_tolerance) {
+    const auto found = propagators(local_tolerance);
+    HillMonodromy attempt;
     attempt.outcome = found.outcome;
     if (found.outcome == Outcome::cancelled || found.outcome == Outcome::step_limit) return attempt;
     attempt =

@@ -13,13 +13,13 @@ constexpr std::array kMethods{Method::automatic, Method::propagator, Method::exa
                               Method::cvode};
 
 /// The splitting where it reaches the tolerance, otherwise whatever comes closest.
-Monodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
+HillMonodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
                                    const MonodromyOptions& options) {
-  Monodromy result = hill_monodromy(pool, equation, Method::propagator, options);
+  HillMonodromy result = hill_monodromy(pool, equation, Method::propagator, options);
   if (result.outcome == Outcome::converged || result.outcome == Outcome::non_finite) return result;
-  Monodromy other = hill_monodromy(pool, equation, Method::arkode, options);
-  Monodromy& better = other.error < result.error ? other : result;
-  Monodromy& worse = &better == &other ? result : other;
+  HillMonodromy other = hill_monodromy(pool, equation, Method::arkode, options);
+  HillMonodromy& better = other.error < result.error ? other : result;
+  HillMonodromy& worse = &better == &other ? result : other;
   better.cost += worse.cost;
   better.estimate_cost += worse.estimate_cost;
   return better;
@@ -66,7 +66,7 @@ MonodromyEngine::~MonodromyEngine() = default;
 MonodromyEngine::MonodromyEngine(MonodromyEngine&&) noexcept = default;
 MonodromyEngine& MonodromyEngine::operator=(MonodromyEngine&&) noexcept = default;
 
-Monodromy MonodromyEngine::compute(const HillEquation& equation, const MonodromyOptions& options) {
+HillMonodromy MonodromyEngine::compute(const HillEquation& equation, const MonodromyOptions& options) {
   equation.validate();
   options.validate();
   const Method method = method_for(equation, options.method);

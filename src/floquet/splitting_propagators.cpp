@@ -28,11 +28,9 @@ Expansion expansion(const PeriodicFunction& w) {
   return result;
 }
 
-ScaledMatrix scaled(const HillPropagators& lanes, double kappa) {
-  ScaledMatrix result{
-      Eigen::MatrixXd{{lanes.u1[0], kappa * lanes.u2[0]}, {lanes.du1[0] / kappa, lanes.du2[0]}},
-      lanes.exponent[0]};
-  return result;
+ScaledMatrix2 scaled(const HillPropagators& lanes, double kappa) {
+  return {Eigen::Matrix2d{{lanes.u1[0], kappa * lanes.u2[0]}, {lanes.du1[0] / kappa, lanes.du2[0]}},
+          lanes.exponent[0]};
 }
 
 }  // namespace
@@ -69,7 +67,7 @@ SplittingPropagation SplittingPropagators::propagate(const PeriodicFunction& w, 
   const double size = result.matrix.value.mantissa.cwiseAbs().maxCoeff();
   const double radians = std::sqrt(w.bound()) * (piece.to - piece.from);
   result.matrix.error =
-      Eigen::MatrixXd::Constant(2, 2, size * (full.rounding() + coefficient_error * radians));
+      Eigen::Matrix2d::Constant(size * (full.rounding() + coefficient_error * radians));
   result.matrix.normalise();
   result.cost = {.steps = plan.steps, .rejections = 0, .right_hand_sides = full.evaluations()};
   if (!with_check) {

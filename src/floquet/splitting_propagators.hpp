@@ -12,8 +12,8 @@ namespace strutt {
 
 /// The propagator of one smooth piece by a splitting, and the same with half the steps.
 struct SplittingPropagation {
-  BoundedMatrix matrix;  ///< state (Y, Y'/kappa); `error` bounds its rounding only
-  ScaledMatrix check;
+  BoundedMatrix2 matrix;  ///< state (Y, Y'/kappa); `error` bounds its rounding only
+  ScaledMatrix2 check;
   double truncation_share = 0.0;     ///< bound of the truncation as a share of |matrix - check|
   IntegrationCost cost, check_cost;  ///< no steps: the tolerance needs too many
 };

@@ -17,7 +17,8 @@ constexpr double kLn2 = std::numbers::ln2;
 constexpr double kLn2Tail = 2.3190468138462996e-17;
 
 /// Writes matrix, trace and multipliers, all divided by one exp(log_scale) if the largest of them would pass 1e300.
-void write_matrix(Stability& result, const Monodromy& monodromy, const std::vector<Multiplier>& multipliers) {
+template <typename Matrix>
+void write_matrix(Stability& result, const BasicMonodromy<Matrix>& monodromy, const std::vector<Multiplier>& multipliers) {
   const auto& m = monodromy.matrix.value;
   const Eigen::Index n = m.mantissa.rows(), d = n / 2;
   Eigen::MatrixXd matrix = m.mantissa;  // (q, q'/kappa) -> (q, q')
@@ -41,7 +42,8 @@ void write_matrix(Stability& result, const Monodromy& monodromy, const std::vect
   }
 }
 
-Stability begin(const Monodromy& monodromy) {
+template <typename Matrix>
+Stability begin(const BasicMonodromy<Matrix>& monodromy) {
   Stability result;
   result.error = monodromy.error;
   result.method = monodromy.method;
@@ -51,7 +53,8 @@ Stability begin(const Monodromy& monodromy) {
   return result;
 }
 
-bool has_value(const Monodromy& monodromy) {
+template <typename Matrix>
+bool has_value(const BasicMonodromy<Matrix>& monodromy) {
   return monodromy.outcome == Outcome::converged || monodromy.outcome == Outcome::tolerance_not_reached;
 }
 
@@ -65,7 +68,7 @@ void finish(Stability& result, const Margin& margin, double growth, double perio
 
 }  // namespace
 
-Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts) {
+Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts) {
   const double period = equation.period();
   auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;

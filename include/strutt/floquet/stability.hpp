@@ -36,7 +36,7 @@ struct StabilityParts {
 };
 
 /// From a monodromy matrix to everything else. Never throws for numerical reasons.
-Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts = {});
+Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts = {});
 Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts = {});
 
 /// compute + assess. A system with one degree of freedom and constant c >= 0 is treated as the Hill equation it is.
