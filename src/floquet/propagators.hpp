@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,13 @@ struct PropagatorPool {
   }
 };
 
+/// By Method::exact, arkode or cvode.
 HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
                          const MonodromyOptions& options);
+/// By Method::propagator, all at once.
+std::vector<HillMonodromy> splitting_monodromies(SplittingPropagators& tables,
+                                                 std::span<const HillEquation> equations,
+                                                 const MonodromyOptions& options);
 Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
                            const MonodromyOptions& options);
 
@@ -47,13 +53,7 @@ struct Propagators {
 
   void append(BasicBoundedMatrix<Matrix>&& factor, BasicScaledMatrix<Matrix>&& check) {
     factors.push_back(std::move(factor));
-    checks.push_back({std::move(check), no_bounds()});
-  }
-
- private:
-  static Matrix no_bounds() {
-    if constexpr (Matrix::SizeAtCompileTime == Eigen::Dynamic) return {};
-    else return Matrix::Zero();
+    checks.push_back({.value = std::move(check)});
   }
 };
 

@@ -128,12 +128,29 @@ Method method_for(const LinearModel& model, Method asked) {
 
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options,
                   const StabilityParts& parts) {
-  if (const auto* equation = std::get_if<HillEquation>(&model)) {
-    return assess(*equation, engine.compute(*equation, options), parts);
+  return std::move(analyse(engine, std::span(&model, 1), options, parts).front());
+}
+
+std::vector<Stability> analyse(MonodromyEngine& engine, std::span<const LinearModel> models,
+                               const MonodromyOptions& options, const StabilityParts& parts) {
+  std::vector<Stability> results(models.size());
+  std::vector<HillEquation> equations;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto* system = std::get_if<LinearPeriodicSystem>(&models[i]);
+    auto equation = system != nullptr ? as_hill_equation(*system) : std::get<HillEquation>(models[i]);
+    if (equation) {
+      equations.push_back(*std::move(equation));
+      places.push_back(i);
+    } else {
+      results[i] = assess(*system, engine.compute(*system, options), parts);
+    }
   }
-  const auto& system = std::get<LinearPeriodicSystem>(model);
-  if (const auto equation = as_hill_equation(system)) return assess(*equation, engine.compute(*equation, options), parts);
-  return assess(system, engine.compute(system, options), parts);
+  const auto monodromies = engine.compute(equations, options);
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    results[places[j]] = assess(equations[j], monodromies[j], parts);
+  }
+  return results;
 }
 
 }  // namespace strutt

@@ -13,7 +13,7 @@ namespace strutt {
 template <typename Matrix>
 struct BasicBoundedMatrix {
   BasicScaledMatrix<Matrix> value;
-  Matrix error;
+  Matrix error = cleared<Matrix>();
 
   static BasicBoundedMatrix identity(int size);
 

@@ -4,12 +4,22 @@
 
 namespace strutt {
 
+/// Zeros, or a matrix without entries where the type does not say how many there are.
+template <typename Matrix>
+Matrix cleared() {
+  if constexpr (Matrix::SizeAtCompileTime == Eigen::Dynamic) {
+    return {};
+  } else {
+    return Matrix::Zero();
+  }
+}
+
 /// A square matrix as mantissa x 2^exponent, so that products of strongly growing propagators do not overflow
 /// (numerical extremes N1, N15). Normalised: the largest absolute entry of the mantissa lies in [1/2, 1), or
 /// all are 0. `Matrix` is Eigen::MatrixXd, or Eigen::Matrix2d for equations of second order.
 template <typename Matrix>
 struct BasicScaledMatrix {
-  Matrix mantissa;
+  Matrix mantissa = cleared<Matrix>();
   long exponent = 0;
 
   static BasicScaledMatrix identity(int size);

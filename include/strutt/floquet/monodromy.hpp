@@ -5,6 +5,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "strutt/base/bounded_matrix.hpp"
 #include "strutt/base/method.hpp"
@@ -80,6 +82,10 @@ class MonodromyEngine {
   /// is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
   HillMonodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
+  /// Many at once, the propagator of smooth equations several to a processor register: the same bits as one by
+  /// one, several times as fast.
+  std::vector<HillMonodromy> compute(std::span<const HillEquation> equations,
+                                     const MonodromyOptions& options = {});
   Monodromy compute(const LinearPeriodicSystem& system, const MonodromyOptions& options = {});
 
  private:

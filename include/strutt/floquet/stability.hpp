@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "strutt/floquet/multipliers.hpp"
@@ -42,6 +43,10 @@ Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy,
 /// compute + assess. A system with one degree of freedom and constant c >= 0 is treated as the Hill equation it is.
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options = {},
                   const StabilityParts& parts = {});
+
+/// The same for many models, Hill equations side by side; the same bits as one by one.
+std::vector<Stability> analyse(MonodromyEngine& engine, std::span<const LinearModel> models,
+                               const MonodromyOptions& options = {}, const StabilityParts& parts = {});
 
 /// The method that `analyse` begins with when `asked` for; throws InvalidInput if it does not fit (monodromy.hpp).
 Method method_for(const LinearModel& model, Method asked);
