@@ -25,7 +25,7 @@ RightHandSide hill_right_hand_side(const PeriodicFunction& w, double from, doubl
 }
 
 Propagators<Eigen::Matrix2d> closed_form_propagators(const HillEquation& equation, const PeriodicFunction& w,
-                                    const std::vector<Segment>& segments, double kappa) {
+                                                     const std::vector<Segment>& segments, double kappa) {
   Propagators<Eigen::Matrix2d> result;
   const double c = equation.canonical_damping();
   // c^2/4 is rounded once it is there, and so is the difference
@@ -42,8 +42,9 @@ Propagators<Eigen::Matrix2d> closed_form_propagators(const HillEquation& equatio
 }
 
 Propagators<Eigen::Matrix2d> integrated_propagators(LinearPropagator& integrator, const PeriodicFunction& w,
-                                   const std::vector<Segment>& segments, double kappa,
-                                   double coefficient_error, const PropagatorOptions& options) {
+                                                    const std::vector<Segment>& segments, double kappa,
+                                                    double coefficient_error,
+                                                    const PropagatorOptions& options) {
   Propagators<Eigen::Matrix2d> result;
   for (const auto& segment : segments) {
     const auto piece = w.piece(0.5 * (segment.from + segment.to));
@@ -64,11 +65,11 @@ HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
   const auto segments = method == Method::exact ? y.pieces : subdivided(y.pieces, y.w);
   if (segments.empty()) return without_result<Eigen::Matrix2d>(method, Outcome::step_limit);
   HillMonodromy result = tighten(method, options.tolerance, [&](double local_tolerance) {
-    const auto found = method == Method::exact
-                           ? closed_form_propagators(equation, y.w, segments, y.kappa)
-                           : integrated_propagators(
-                                 pool.integrator(2, method), y.w, segments, y.kappa, y.coefficient_error,
-                                 propagator_options(options, local_tolerance, y.w.highest_order()));
+    const auto found =
+        method == Method::exact
+            ? closed_form_propagators(equation, y.w, segments, y.kappa)
+            : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa, y.coefficient_error,
+                                     propagator_options(options, local_tolerance, y.w.highest_order()));
     return y.assembled(found, segments);
   });
   result.method = method;

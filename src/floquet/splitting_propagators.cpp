@@ -55,7 +55,8 @@ struct Lanes {
 HillStepPlan SplittingPropagators::plan(const SplittingJob& job, double tolerance) {
   const int highest = job.w.highest_order();
   const double length = job.piece.to - job.piece.from;
-  const auto [planner, is_new] = planners_.try_emplace({highest, length, tolerance}, highest, length, tolerance);
+  const auto [planner, is_new] =
+      planners_.try_emplace({highest, length, tolerance}, highest, length, tolerance);
   return planner->second.plan(job.w.bound());
 }
 

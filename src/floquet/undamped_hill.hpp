@@ -16,7 +16,8 @@ struct UndampedHill {
 
   /// The monodromy matrix from the propagators of the segments that the pieces were cut into, with its error;
   /// without value where these were not finished.
-  HillMonodromy assembled(const Propagators<Eigen::Matrix2d>& found, const std::vector<Segment>& segments) const;
+  HillMonodromy assembled(const Propagators<Eigen::Matrix2d>& found,
+                          const std::vector<Segment>& segments) const;
 
   std::optional<double> centre;
   PeriodicFunction w;
