@@ -80,7 +80,9 @@ class CellComputer {
       *x_ = points[i][0];
       *y_ = points[i][1];
       try {
-        models.push_back(linear_model(scene_));
+        LinearModel model = linear_model(scene_);
+        std::visit([](const auto& m) { m.validate(); }, model);
+        models.push_back(std::move(model));
         places.push_back(i);
       } catch (const InvalidInput&) {
         // outcome failed: the corners were checked, but not every combination inside need be a body
