@@ -1,5 +1,6 @@
 #include "strutt/free_pendulum/period.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,12 +23,19 @@ const DoubleDouble kTwoPi = ldexp(kPi, 1);
 DoubleDouble sum_of(const Eigenfrequency& alpha) { return {alpha.value, alpha.rest}; }
 
 /// `ratio_error` is relative.
+/// Relative error of a number that may have lost digits, or all of them, below the least normal double.
+double lost_below_normal(double value) {
+  using Limits = std::numeric_limits<double>;
+  return value < Limits::min() ? Limits::denorm_min() / std::max(value, Limits::denorm_min()) : 0.0;
+}
+
 Period period_of(double ratio, double ratio_error, const Eigenfrequency& alpha) {
   alpha.validate();
   if (std::isinf(ratio)) return {ratio, ratio, ratio, 0.0, PeriodMethod::separatrix};
   double period = (DoubleDouble(ratio) * kTwoPi / sum_of(alpha)).hi;
   if (!std::isfinite(period)) period = std::numeric_limits<double>::infinity();  // alpha below 1e-307
-  return {ratio, period, 0.25 * period, ratio_error + kRounded, PeriodMethod::elliptic};
+  return {ratio, period, 0.25 * period, ratio_error + kRounded + lost_below_normal(0.25 * period),
+          PeriodMethod::elliptic};
 }
 
 BoundedNumber rounded(DoubleDouble value) { return {value.hi, kRounded}; }

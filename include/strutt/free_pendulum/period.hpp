@@ -33,9 +33,9 @@ void period_ratios_from_top(std::span<const double> from_top, std::span<double> 
 
 /// How a period was found.
 enum class PeriodMethod : signed char {
-  elliptic,        ///< the closed form
-  separatrix,      ///< infinite
-  normal_form,     ///< this and the following: period_formulas.hpp
+  elliptic,     ///< the closed form
+  separatrix,   ///< infinite
+  normal_form,  ///< this and the following: period_formulas.hpp
   krylov,
   krylov_squared,
   series,
@@ -45,10 +45,12 @@ std::string_view to_string(PeriodMethod method);
 
 /// A period. `error` bounds the relative errors of all three.
 struct Period {
-  double ratio = 1.0;   ///< T/T0
-  double period = 0.0;  ///< T, s for alpha in rad/s
+  double ratio = 1.0;    ///< T/T0
+  double period = 0.0;   ///< T, s for alpha in rad/s
   double quarter = 0.0;  ///< T/4; in a libration the time from the bottom to the turning point
-  double error = 0.0;  ///< <= 3.5e-16; 0 on the separatrix, where ratio and period are +inf
+  /// <= 3.5e-16 (more where T/4 is below the normal doubles, 1 where it is rounded to 0); 0 on the
+  /// separatrix, where ratio and period are +inf.
+  double error = 0.0;
   PeriodMethod method = PeriodMethod::elliptic;
 };
 
