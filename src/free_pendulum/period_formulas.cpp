@@ -123,11 +123,13 @@ double ratio_of(PeriodMethod formula, double amplitude) {
       amplitude);
 }
 
+bool has_meaning(PeriodMethod formula, double amplitude) {
+  return amplitude < krylov_limit(formula == PeriodMethod::krylov_squared ? KrylovVariant::frequency_squared
+                                                                          : KrylovVariant::frequency);
+}
+
 FormulaError formula_of(PeriodMethod formula, const Libration& orbit) {
-  const bool meant = orbit.amplitude.hi < krylov_limit(formula == PeriodMethod::krylov_squared
-                                                           ? KrylovVariant::frequency_squared
-                                                           : KrylovVariant::frequency);
-  if (!meant) return {kNaN, kNaN};
+  if (!has_meaning(formula, orbit.amplitude.hi)) return {kNaN, kNaN};
   return {ratio_of(formula, orbit.amplitude.hi), relative_error(formula, orbit)};
 }
 
@@ -177,6 +179,12 @@ Peak peak_of_31() {
 
 }  // namespace
 
+double formula_ratio(PeriodMethod formula, double amplitude) {
+  check_formula(formula);
+  require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
+  return has_meaning(formula, amplitude) ? ratio_of(formula, amplitude) : kNaN;
+}
+
 FormulaError formula_of_amplitude(PeriodMethod formula, double amplitude) {
   check_formula(formula);
   require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
@@ -223,6 +231,13 @@ PeriodMethod CheapestPeriod::method(double amplitude) const {
   for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
     if (amplitude <= reach_[i]) return kPeriodFormulas[i];
   return PeriodMethod::elliptic;
+}
+
+double CheapestPeriod::ratio(double amplitude) const {
+  const PeriodMethod chosen = method(amplitude);
+  if (chosen != PeriodMethod::elliptic) return formula_ratio(chosen, amplitude);
+  require(amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
+  return period_ratio(amplitude);
 }
 
 namespace {
