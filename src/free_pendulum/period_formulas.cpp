@@ -117,7 +117,7 @@ double relative_error(PeriodMethod formula, const Libration& orbit) {
 
 double ratio_of(PeriodMethod formula, double amplitude) {
   if (formula == PeriodMethod::series) return series_ratio(amplitude);
-  if (formula == PeriodMethod::normal_form) return 1.0 / std::fma(-amplitude / 16.0, amplitude, 1.0);
+  if (formula == PeriodMethod::normal_form) return 1.0 / ((1.0 - amplitude / 4.0) * (1.0 + amplitude / 4.0));
   return krylov_period_ratio(
       formula == PeriodMethod::krylov ? KrylovVariant::frequency : KrylovVariant::frequency_squared,
       amplitude);
@@ -234,10 +234,9 @@ PeriodMethod CheapestPeriod::method(double amplitude) const {
 }
 
 double CheapestPeriod::ratio(double amplitude) const {
+  require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
   const PeriodMethod chosen = method(amplitude);
-  if (chosen != PeriodMethod::elliptic) return formula_ratio(chosen, amplitude);
-  require(amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
-  return period_ratio(amplitude);
+  return chosen == PeriodMethod::elliptic ? period_ratio(amplitude) : ratio_of(chosen, amplitude);
 }
 
 namespace {
