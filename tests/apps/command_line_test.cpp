@@ -147,6 +147,10 @@ TEST_CASE("times and starts of a motion that make no sense are refused", "[apps]
                2, {"--angle", "wrong dimension"});
   room.refuses({"motion", "p.toml", "--angle", "nan", "--velocity", "0", "--duration", "1", "--samples", "2"},
                2, {"--angle", "'nan'"});
+  room.refuses({"motion", "p.toml", "--angle", "2e9", "--velocity", "0", "--duration", "1", "--samples", "2"},
+               2, {"angle = 2e+09", "-1e9"});
+  room.refuses({"motion", "p.toml", "--angle", "1", "--velocity", "inf", "--duration", "1", "--samples", "2"},
+               2, {"--velocity", "'inf'"});
 }
 
 TEST_CASE("outputs that do not fit are refused", "[apps][command_line]") {
