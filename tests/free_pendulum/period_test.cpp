@@ -276,6 +276,23 @@ TEST_CASE("the time of flight is the elliptic integral", "[free_pendulum][period
     const BoundedNumber time = rotation_time_of_flight(excess, angle);
     CHECK(abs(time.value / truth - 1) <= Real(time.error));
   }
+  SECTION("down to the smallest angles") {
+    const double angle = GENERATE(5e-324, 1e-320, 1e-310, 1e-305, 1e-250, 0.99e-150, 1.01e-150);
+    for (const double amplitude : {2e-323, 1e-310, 1e-300, 1e-150, 1e-99, 1.0, kPiRounded}) {
+      if (angle > amplitude) continue;
+      const Real truth = asin(Real(sin(Real(angle) / 2) / sin(Real(amplitude) / 2)));  // F(psi) = psi here
+      const BoundedNumber time = libration_time_of_flight(amplitude, angle);
+      CAPTURE(amplitude, angle, time.value);
+      CHECK(abs(time.value / truth - 1) <= Real(time.error));
+      CHECK((time.error < 1.2e-16 || time.value < 1e-290));
+    }
+    for (const double excess : {1e-80, 1.0, 1e300}) {
+      const Real truth = Real(angle) / sqrt(4 + Real(excess));
+      const BoundedNumber time = rotation_time_of_flight(excess, angle);
+      CAPTURE(excess, angle, time.value);
+      CHECK(abs(time.value / truth - 1) <= Real(time.error));
+    }
+  }
   SECTION("misuse") {
     CHECK_THROWS_AS(libration_time_of_flight(1.0, 1.1), InvalidInput);
     CHECK_THROWS_AS(libration_time_of_flight(1.0, -0.1), InvalidInput);
