@@ -185,14 +185,13 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
 }  // namespace
 
 ExitCode run(const StabilityArguments& arguments) {
-  const MonodromyOptions options{
-      .tolerance = tolerance_of(arguments),
+  MonodromyOptions options{
       .method = method_of(arguments, "stability", {Method::propagator, Method::cvode, Method::arkode, Method::exact}),
       .cancel = &cancel_flag()};
   const int threads = threads_of(arguments);
-  if (arguments.points == "-" && arguments.scene == "-")
-    throw UsageError("scene and points cannot both be standard input");
+  require_one_standard_input(arguments, "--points", arguments.points);
   const SceneFile scene = load_scene(arguments);
+  options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
   const Points points = read_points(arguments, scene, options.method);
   if (arguments.dry_run) {
     print_plan(
