@@ -47,6 +47,9 @@ struct ChartPlan {
   int threads = 1;
 };
 
+/// Forecast, for orientation: the time that one point takes one thread by this method at tolerance 1e-9, in seconds.
+double expected_seconds_per_point(Method method);
+
 /// Checks the request against the scene (parameters exist, ends are valid values, sizes do not overflow) and estimates it.
 /// Throws InvalidInput, and MemoryBudgetExceeded when result_bytes or working_bytes > budget_bytes unless `force`.
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request);
