@@ -49,6 +49,17 @@ TEST_CASE("Equality is called boundary only where it is proved", "[floquet][verd
   CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, nullptr).equation).verdict == Verdict::boundary);
 }
 
+TEST_CASE("Damping alone keeps constants: a boundary, proved", "[floquet][verdict]") {
+  for (const double c : {1e-12, 0.1, 3.0, 400.0}) {
+    const auto result = at(0.0, 0.0, c);
+    CHECK(result.verdict == Verdict::boundary);
+    CHECK(result.growth == 0.0);
+    CHECK(at(1e-6, 0.0, c).verdict != Verdict::boundary);
+    CHECK(at(0.0, 1e-9, c).verdict != Verdict::boundary);
+  }
+  CHECK_FALSE(std::signbit(at(0.0, 0.0).margin));  // files say 0, not -0
+}
+
 TEST_CASE("Coexistence of the square wave is proved when both pieces are whole turns", "[floquet][verdict][N8]") {
   MonodromyEngine engine;  // w = 4 +- ... : sqrt(w) pi = whole turns over each half period
   const auto equation = hill_equation(2.0 * std::numbers::pi, PeriodicFunction::square(10.0, 6.0, 0.0));
