@@ -1,13 +1,13 @@
 #include "scene_arguments.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 
 #include "exit_code.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/chart/stability_chart.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -166,8 +166,7 @@ void warn_about(const CommonArguments& arguments, const Scene& scene) {
 }
 
 void require_memory(const CommonArguments& arguments, double bytes) {
-  const double budget =
-      0.5 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double budget = memory_budget();
   if (arguments.force || bytes <= budget) return;
   throw MemoryBudgetExceeded(
       fmt::format("this needs {:.3g} GB of memory, the budget is {:.3g} GB; --force lifts it", bytes / 1e9,

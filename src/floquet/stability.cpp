@@ -118,9 +118,14 @@ std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system)
                          h.sine.size() > 0 ? h.sine(0, 0) / mass : 0.0});
   }
   const auto w = PeriodicFunction::fourier(system.stiffness.mean(0, 0) / mass, std::move(harmonics));
-  HillEquation equation = hill_equation(system.period, w, *c);
-  equation.plain_kappa = true;
-  return equation;
+  try {
+    HillEquation equation = hill_equation(system.period, w, *c);
+    equation.validate();
+    equation.plain_kappa = true;
+    return equation;
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // beyond double in canonical time: to a system that is an outcome
+  }
 }
 
 Method method_for(const LinearModel& model, Method asked) {

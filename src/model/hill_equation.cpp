@@ -43,8 +43,11 @@ HillEquation mathieu_a_q(double a, double q, double damping) {
 HillEquation hill_equation(double period, const PeriodicFunction& w, double damping) {
   require(period > 0.0 && std::isfinite(period), "period", period, "a finite number > 0");
   const double unit = period / (2.0 * std::numbers::pi);  // of canonical time
+  const auto canonical = w.scaled(unit * unit);
+  require(w.mean() == 0.0 || canonical.mean() != 0.0, "mean of w in canonical time", canonical.mean(),
+          "within the range of double");
   // roundings: pi, the quotient and the square count twice each, the product once
-  return {1.0 / unit, damping, w.scaled(unit * unit), 8.0 * 0x1p-53};
+  return {1.0 / unit, damping, canonical, 8.0 * 0x1p-53};
 }
 
 }  // namespace strutt

@@ -27,9 +27,11 @@ LinearisedPendulum linearise(const PhysicalPendulum& pendulum, Equilibrium about
     const double omega = support->frequency;
     require(omega > 0.0 && std::isfinite(omega), "support.frequency", omega, "a finite number > 0");
     equation.angular_frequency = omega;
+    const double delta = alpha_squared / (omega * omega);
+    require(delta > 0.0, "(alpha/support.frequency)^2", delta, "within the range of double");
     const auto acceleration = support->function.derivative().derivative();  // per theta^2
     equation.coefficient =
-        acceleration.scaled(sign * (alpha_squared / pendulum.gravity)).plus(sign * (alpha_squared / (omega * omega)));
+        acceleration.scaled(sign * (alpha_squared / pendulum.gravity)).plus(sign * delta);
     equation.coefficient_error = kCoefficientError;
   }
   equation.validate();
