@@ -110,9 +110,6 @@ TEST_CASE("Hill's equation refuses what it cannot be", "[model][hill_equation][e
     CHECK_THROWS_AS(mathieu_delta_epsilon(1.0, bad).validate(), InvalidInput);
   }
   // finite in the scene's time, but not in canonical time
-  CHECK_THROWS_WITH(hill_equation(1e-10, PeriodicFunction::constant(1e-310)),
-                    Catch::StartsWith("mean of w in canonical time = 0"));  // no proof that it is 0
-  CHECK_NOTHROW(hill_equation(1e-10, PeriodicFunction::constant(0.0)).validate());
   CHECK_THROWS_AS(hill_equation(1e160, PeriodicFunction::constant(1.0)).validate(), InvalidInput);
   CHECK_NOTHROW(mathieu_delta_epsilon(-1e300, 1e300, 1e300).validate());
 }

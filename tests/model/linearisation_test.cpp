@@ -155,8 +155,6 @@ TEST_CASE("Linearisation refuses bodies, supports and moments that do not fit",
         linearise(rod(), Equilibrium::hanging, &support),
         "support.frequency = " + to_text(bad) + " is not allowed: it must be a finite number > 0");
   }
-  const auto fast = sinusoidal_support(0.0, 1e300);
-  CHECK_THROWS_WITH(linearise(rod(), Equilibrium::hanging, &fast), Catch::StartsWith("(alpha/support.frequency)^2 = 0"));
   const auto wild = sinusoidal_support(std::nan(""), 2.0);
   CHECK_THROWS_AS(linearise(rod(), Equilibrium::hanging, &wild), InvalidInput);
   const auto support = sinusoidal_support(0.1, 2.0);
