@@ -35,8 +35,7 @@ void check_flags(const PeriodArguments& arguments) {
   for (const Input& input : kInputs) given += arguments.*input.argument ? 1 : 0;
   if (given != 1)
     throw UsageError("wanted is exactly one of --amplitude, --from-top, --separatrix-excess, --points");
-  if (arguments.points == "-" && arguments.scene == "-")
-    throw UsageError("scene and points cannot both be standard input");
+  require_one_standard_input(arguments, "--points", arguments.points);
   if (arguments.scene.empty() && !arguments.set.empty()) throw UsageError("--set goes with --scene only");
   if (!arguments.figure) return;
   if (!arguments.compare || !arguments.points) throw UsageError("--figure goes with --points and --compare");
