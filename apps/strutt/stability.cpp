@@ -10,6 +10,7 @@
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
+#include "strutt/chart/stability_chart.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -188,25 +189,30 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
   return counts;
 }
 
+std::vector<std::string> plan_lines(const Scene& scene, const Points& points, const MonodromyOptions& options,
+                                    int threads) {
+  const Method method = method_for(linear_model(scene), options.method);
+  const int used = thread_count({.threads = threads});
+  const double seconds = static_cast<double>(points.values.size()) * expected_seconds_per_point(method) / used;
+  return {fmt::format("points: {}", points.values.size()), fmt::format("states: {}", states_of(scene)),
+          fmt::format("expected time: {:.2g} s", seconds), "method: " + std::string(to_string(method)),
+          "tolerance: " + to_text(options.tolerance), fmt::format("threads: {}", used)};
+}
+
 }  // namespace
 
 ExitCode run(const StabilityArguments& arguments) {
-  const MonodromyOptions options{
-      .tolerance = tolerance_of(arguments),
+  MonodromyOptions options{
       .method = method_of(arguments, "stability",
                           {Method::propagator, Method::cvode, Method::arkode, Method::exact}),
       .cancel = &cancel_flag()};
   const int threads = threads_of(arguments);
-  if (arguments.points == "-" && arguments.scene == "-")
-    throw UsageError("scene and points cannot both be standard input");
+  require_one_standard_input(arguments, "--points", arguments.points);
   const SceneFile scene = load_scene(arguments);
+  options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
   const Points points = read_points(arguments, scene, options.method);
   if (arguments.dry_run) {
-    print_plan(
-        scene,
-        {fmt::format("points: {}", points.values.size()), fmt::format("states: {}", states_of(scene.scene)),
-         "method: " + std::string(to_string(options.method)), "tolerance: " + to_text(options.tolerance),
-         fmt::format("threads: {}", thread_count({.threads = threads}))});
+    print_plan(scene, plan_lines(scene.scene, points, options, threads));
     return ExitCode::done;
   }
   warn_about(arguments, scene.scene);

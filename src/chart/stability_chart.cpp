@@ -29,17 +29,6 @@ struct CellCost {
 constexpr CellCost kCellCosts[] = {
     {Method::exact, 5e-6}, {Method::propagator, 1.5e-5}, {Method::arkode, 4e-4}, {Method::cvode, 4e-4}};
 
-double seconds_per_cell(Method method) {
-  for (const auto& cost : kCellCosts) {
-    if (cost.method == method) return cost.seconds;
-  }
-  return 0.0;
-}
-
-double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 std::string gigabytes(double bytes) { return to_text(std::round(bytes / 1e7) / 100.0) + " GB"; }
 
 void check_request(const ChartRequest& request) {
@@ -156,6 +145,17 @@ void add(ChartSummary& summary, const CellRecord& cell, bool with_verdict) {
 
 }  // namespace
 
+double memory_budget() {
+  return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double expected_seconds_per_point(Method method) {
+  for (const auto& cost : kCellCosts) {
+    if (cost.method == method) return cost.seconds;
+  }
+  return 0.0;
+}
+
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   check_request(request);
   Scene corner = scene;
@@ -176,10 +176,10 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   plan.rows_per_strip = std::clamp<std::size_t>(kStripCells / nx, 1, ny);
   plan.result_bytes = 8.0 * (cells * static_cast<double>(layers) + static_cast<double>(nx + ny));
   plan.working_bytes = 8.0 * static_cast<double>(plan.rows_per_strip * nx) * static_cast<double>(layers + 4);
-  plan.budget_bytes = 0.5 * physical_memory();
+  plan.budget_bytes = memory_budget();
   plan.method = method_for(model, request.method);
   plan.threads = thread_count({.threads = request.threads});
-  plan.expected_seconds = cells * seconds_per_cell(plan.method) / plan.threads;
+  plan.expected_seconds = cells * expected_seconds_per_point(plan.method) / plan.threads;
   const double bytes = std::max(plan.result_bytes, plan.working_bytes);
   if (bytes > plan.budget_bytes && !request.force) {
     throw MemoryBudgetExceeded("a chart of " + std::to_string(nx) + " x " + std::to_string(ny) + " points with " +

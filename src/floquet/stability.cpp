@@ -53,6 +53,11 @@ Stability begin(const BasicMonodromy<Matrix>& monodromy) {
   return result;
 }
 
+/// x'' + c x' = 0: constants are solutions, the multipliers 1 and exp(-cT).
+bool has_no_force(const HillEquation& equation) {
+  return equation.coefficient.is_constant() && equation.coefficient.mean() == 0.0;
+}
+
 template <typename Matrix>
 bool has_value(const BasicMonodromy<Matrix>& monodromy) {
   return monodromy.outcome == Outcome::converged || monodromy.outcome == Outcome::tolerance_not_reached;
@@ -74,7 +79,9 @@ Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, c
   if (!has_value(monodromy)) return result;
   const auto discriminant = discriminant_gap(monodromy);
   const double h = monodromy.half_damping;
-  finish(result, hill_margin(discriminant, h), hill_growth(discriminant, h), period);
+  const bool marginal = has_no_force(equation);
+  finish(result, marginal ? Margin{0.0, 0.0} : hill_margin(discriminant, h),
+         marginal ? 0.0 : hill_growth(discriminant, h), period);
   if (parts.winding) {
     const double c = equation.canonical_damping();
     result.winding = winding_number(equation.coefficient.plus(-0.25 * c * c), monodromy.undamped, discriminant,
@@ -114,9 +121,14 @@ std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system)
                          h.sine.size() > 0 ? h.sine(0, 0) / mass : 0.0});
   }
   const auto w = PeriodicFunction::fourier(system.stiffness.mean(0, 0) / mass, std::move(harmonics));
-  HillEquation equation = hill_equation(system.period, w, *c);
-  equation.plain_kappa = true;
-  return equation;
+  try {
+    HillEquation equation = hill_equation(system.period, w, *c);
+    equation.validate();
+    equation.plain_kappa = true;
+    return equation;
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // beyond double in canonical time: to a system that is an outcome
+  }
 }
 
 Method method_for(const LinearModel& model, Method asked) {

@@ -99,7 +99,7 @@ Margin hill_margin(const DiscriminantGap& d, double half_damping) {
     const double error = d.log_abs_error + 4.0 * kUnit * (h + std::abs(d.log_abs));
     return {-std::expm1(log_ratio), std::exp(log_ratio) * std::expm1(error) + 2.0 * kUnit};
   }
-  if (h == 0.0) return {0.5 * d.gap, 0.5 * d.gap_error};
+  if (h == 0.0) return {0.0 + 0.5 * d.gap, 0.5 * d.gap_error};  // not -0
   const double half_sinh = std::sinh(0.5 * h), two_cosh = 2.0 * std::cosh(h);
   const double allowance = 4.0 * half_sinh * half_sinh;  // 2 cosh h - 2
   const double h_error = 4.0 * kUnit * h;
