@@ -6,9 +6,9 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kMostTables = 256;
+constexpr std::size_t kMostFamilies = 64;
 
-/// Calls visit(name, weight) for each term of W besides its mean, named as in SplittingPropagators::Group.
+/// Calls visit(name, weight) for each term of W besides its mean, named as in SplittingPropagators::Key.
 template <typename Visit>
 void for_each_term(const PeriodicFunction& w, const Visit& visit) {
   for (const auto& h : w.harmonics()) {
@@ -50,80 +50,63 @@ struct Lanes {
   }
 };
 
-}  // namespace
-
-HillStepPlan SplittingPropagators::plan(const SplittingJob& job, double tolerance) {
-  const int highest = job.w.highest_order();
-  const double length = job.piece.to - job.piece.from;
-  const auto [planner, is_new] =
-      planners_.try_emplace({highest, length, tolerance}, highest, length, tolerance);
-  return planner->second.plan(job.w.bound());
-}
-
-const HillPropagator& SplittingPropagators::table(const Group& group) {
-  const auto found = tables_.find(group);
-  if (found != tables_.end()) return found->second;
-  std::vector<PeriodicFunction> basis;
-  for (const int name : group.harmonics) {
-    basis.push_back(
-        PeriodicFunction::fourier(0.0, {{std::abs(name), name > 0 ? 1.0 : 0.0, name > 0 ? 0.0 : 1.0}}));
-  }
-  HillPropagator made({group.order, group.steps}, basis, group.from, group.to);
-  return tables_.emplace(group, std::move(made)).first->second;
-}
-
-void SplittingPropagators::run(const Group& group, std::span<const SplittingJob> jobs,
-                               std::span<const std::size_t> members, bool with_check,
-                               std::vector<SplittingPropagation>& results) {
-  if (tables_.size() + 2 > kMostTables) tables_.clear();
-  const Lanes lanes(jobs, members, group.harmonics.size());
-  const HillBatch batch = lanes.batch();
-  HillPropagators found;
-  const auto& full = table(group);
-  full.propagate(batch, found);
-  for (std::size_t l = 0; l < members.size(); ++l) {
-    const auto& job = jobs[members[l]];
-    auto& result = results[members[l]];
-    result.matrix.value = scaled(found, l, job.kappa);
+/// Writes the results of a group to the members' places.
+void unpack(const HillGroup& group, std::span<const SplittingJob> jobs, std::span<const std::size_t> members,
+            std::vector<SplittingPropagation>& results) {
+  for (std::size_t l = 0; l < group.lanes.size(); ++l) {
+    const std::size_t member = members[group.lanes[l]];
+    const auto& job = jobs[member];
+    auto& result = results[member];
+    if (group.full == nullptr) continue;
+    result.matrix.value = scaled(group.result, l, job.kappa);
     const double size = result.matrix.value.mantissa.cwiseAbs().maxCoeff();
     const double radians = std::sqrt(job.w.bound()) * (job.piece.to - job.piece.from);
     result.matrix.error =
-        Eigen::Matrix2d::Constant(size * (full.rounding() + job.coefficient_error * radians));
+        Eigen::Matrix2d::Constant(size * (group.full->rounding() + job.coefficient_error * radians));
     result.matrix.normalise();
     result.check = result.matrix.value;
-    result.cost = {.steps = group.steps, .rejections = 0, .right_hand_sides = full.evaluations()};
-  }
-  if (!with_check) return;
-  Group halved = group;
-  halved.steps /= 2;
-  const auto& half = table(halved);
-  half.propagate(batch, found);
-  for (std::size_t l = 0; l < members.size(); ++l) {
-    auto& result = results[members[l]];
-    result.check = scaled(found, l, jobs[members[l]].kappa);
+    result.cost = {
+        .steps = group.plan.steps, .rejections = 0, .right_hand_sides = group.full->evaluations()};
+    if (group.half == nullptr) continue;
+    result.check = scaled(group.check, l, job.kappa);
     result.check.normalise();
-    result.truncation_share = halving_share(group.order);
-    result.check_cost = {.steps = halved.steps, .rejections = 0, .right_hand_sides = half.evaluations()};
+    result.truncation_share = halving_share(group.plan.order);
+    result.check_cost = {
+        .steps = group.plan.steps / 2, .rejections = 0, .right_hand_sides = group.half->evaluations()};
   }
+}
+
+}  // namespace
+
+HillFamily& SplittingPropagators::family(const Key& key) {
+  const auto found = families_.find(key);
+  if (found != families_.end()) return found->second;
+  if (families_.size() >= kMostFamilies) families_.clear();
+  std::vector<PeriodicFunction> basis;
+  for (const int name : key.harmonics) {
+    basis.push_back(
+        PeriodicFunction::fourier(0.0, {{std::abs(name), name > 0 ? 1.0 : 0.0, name > 0 ? 0.0 : 1.0}}));
+  }
+  return families_.try_emplace(key, std::move(basis), key.from, key.to, key.tolerance).first->second;
 }
 
 std::vector<SplittingPropagation> SplittingPropagators::propagate(std::span<const SplittingJob> jobs,
                                                                   double tolerance, bool with_check) {
   std::vector<SplittingPropagation> results(jobs.size());
-  std::map<Group, std::vector<std::size_t>> groups;
-  Group group;
+  std::map<Key, std::vector<std::size_t>> groups;
+  Key key{.from = 0.0, .to = 0.0, .tolerance = tolerance, .harmonics = {}};
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    const HillStepPlan plan = this->plan(jobs[i], tolerance);
-    if (plan.steps == 0) continue;
-    group.order = plan.order;
-    group.steps = plan.steps;
-    group.from = jobs[i].piece.from;
-    group.to = jobs[i].piece.to;
-    group.harmonics.clear();
-    for_each_term(jobs[i].w, [&](int name, double) { group.harmonics.push_back(name); });
-    groups[group].push_back(i);
+    key.from = jobs[i].piece.from;
+    key.to = jobs[i].piece.to;
+    key.harmonics.clear();
+    for_each_term(jobs[i].w, [&](int name, double) { key.harmonics.push_back(name); });
+    groups[key].push_back(i);
   }
-  for (const auto& [common, members] : groups) run(common, jobs, members, with_check, results);
+  for (const auto& [common, members] : groups) {
+    const Lanes lanes(jobs, members, common.harmonics.size());
+    family(common).propagate(lanes.batch(), with_check,
+                             [&](const HillGroup& group) { unpack(group, jobs, members, results); });
+  }
   return results;
 }
 

@@ -68,9 +68,27 @@ HillStepPlanner::HillStepPlanner(int highest_order, double length, double tolera
 }
 
 HillStepPlan HillStepPlanner::plan(double bound) const {
-  const auto found = std::lower_bound(limits_.begin(), limits_.end(), bound) - limits_.begin();
-  if (found == static_cast<std::ptrdiff_t>(limits_.size())) return {};
-  return plans_[static_cast<std::size_t>(found)];
+  std::uint32_t place = 0;
+  choose({&bound, 1}, {&place, 1});
+  return place < plans_.size() ? plans_[place] : HillStepPlan{};
+}
+
+void HillStepPlanner::choose(std::span<const double> bounds, std::span<std::uint32_t> places) const {
+  for (std::size_t l = 0; l < bounds.size(); ++l) {
+    places[l] = static_cast<std::uint32_t>(std::lower_bound(limits_.begin(), limits_.end(), bounds[l]) -
+                                           limits_.begin());
+  }
+}
+
+void HillBatch::validate(std::size_t functions) const {
+  if (weights.size() != functions) {
+    throw InvalidInput("weights", std::to_string(weights.size()), "as many as there are basis functions");
+  }
+  for (const auto& w : weights) {
+    if (w.size() != mean.size()) {
+      throw InvalidInput("weights", std::to_string(w.size()), "as long as the means");
+    }
+  }
 }
 
 double halving_share(int order) { return kHalvingSafety / (std::exp2(order) - 1.0); }
@@ -101,17 +119,9 @@ HillPropagator::HillPropagator(const HillStepPlan& plan, std::span<const Periodi
 }
 
 void HillPropagator::propagate(const HillBatch& batch, HillPropagators& result) const {
-  if (batch.weights.size() != static_cast<std::size_t>(functions_)) {
-    throw InvalidInput("weights", std::to_string(batch.weights.size()),
-                       "as many as there are basis functions");
-  }
+  batch.validate(static_cast<std::size_t>(functions_));
   std::vector<const double*> weights;
-  for (const auto& w : batch.weights) {
-    if (w.size() != batch.mean.size()) {
-      throw InvalidInput("weights", std::to_string(w.size()), "as long as the means");
-    }
-    weights.push_back(w.data());
-  }
+  for (const auto& w : batch.weights) weights.push_back(w.data());
   const std::size_t lanes = batch.mean.size();
   for (auto* entry : {&result.u1, &result.du1, &result.u2, &result.du2}) entry->resize(lanes);
   result.exponent.resize(lanes);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@ class HillStepPlanner {
   /// For W with |W| <= `bound`.
   HillStepPlan plan(double bound) const;
 
+  /// The same as a place in plans(), for many bounds at once; plans().size() where no plan serves.
+  void choose(std::span<const double> bounds, std::span<std::uint32_t> places) const;
+  std::span<const HillStepPlan> plans() const { return plans_; }
+
  private:
   std::vector<double> limits_;  // ascending: the largest bounds for which the plans serve
   std::vector<HillStepPlan> plans_;
@@ -43,6 +48,8 @@ double halving_share(int order);
 struct HillBatch {
   std::span<const double> mean;
   std::vector<std::span<const double>> weights;  ///< one per basis function, each as long as `mean`
+
+  void validate(std::size_t functions) const;  ///< throws InvalidInput when the lengths do not agree
 };
 
 /// The propagators of (Y, Y') of a batch, [u1, u2; u1', u2'] times 2^exponent, one array per entry.
