@@ -63,21 +63,18 @@ HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance) 
 void HillDiscriminants::attempt(HillFamily& family, const HillBatch& batch, std::span<double> value,
                                 std::span<double> error) {
   std::vector<double> bound;
-  family.propagate(batch, true, [&](const HillGroup& group) {
+  family.propagate(batch, [&](const HillGroup& group) {
     const std::size_t lanes = group.lanes.size();
     value_.assign(lanes, std::numeric_limits<double>::quiet_NaN());
     error_.assign(lanes, kInfinity);
-    if (group.full != nullptr) {
+    if (group.plan.steps > 0) {
       bound.resize(lanes);
       for (std::size_t l = 0; l < lanes; ++l) bound[l] = std::abs(group.batch.mean[l]);
       for (const auto& w : group.batch.weights)
         for (std::size_t l = 0; l < lanes; ++l) bound[l] += std::abs(w[l]);
-      detail::combine({.full = &group.result,
-                       .half = &group.check,
+      detail::combine({.half = &group.result,
                        .mean = group.batch.mean.data(),
                        .bound = bound.data(),
-                       .share = halving_share(group.plan.order),
-                       .rounding = group.full->rounding(),
                        .coefficient_error = coefficient_error_,
                        .value = value_.data(),
                        .error = error_.data(),

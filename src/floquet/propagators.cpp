@@ -8,9 +8,9 @@ constexpr double kLowestLocalTolerance = 1e-14;
 constexpr double kHighestLocalTolerance = 1e-4;
 constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 
-// Of a whole piece, by a splitting.
-constexpr double kLowestSplittingTolerance = 1e-15;
-constexpr double kSplittingShare = 0.2;
+// Of a whole piece, by power series.
+constexpr double kLowestSeriesTolerance = 1e-16;
+constexpr double kSeriesShare = 0.5;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
 }
 
 ToleranceLadder tolerance_ladder(Method method, double tolerance) {
-  if (method == Method::propagator) return {kSplittingShare * tolerance, kLowestSplittingTolerance};
+  if (method == Method::propagator) return {kSeriesShare * tolerance, kLowestSeriesTolerance};
   return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
           kLowestLocalTolerance};
 }

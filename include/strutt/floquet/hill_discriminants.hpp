@@ -17,9 +17,8 @@ class HillDiscriminants {
   HillDiscriminants(std::vector<int> orders, double tolerance);
 
   /// value[l] = D (infinite beyond the range of double) and error[l], a bound of |value - D| divided by
-  /// max(1, largest |entry| of N in the state (Y, Y'/kappa)), kappa = max(1, sqrt|mean|). It rests on a second run
-  /// with half the steps, and is tightened until it is at most the tolerance or rounding is all that is left; +inf
-  /// where there is no value. The doubles in `batch` are taken as exact.
+  /// max(1, largest |entry| of N in the state (Y, Y'/kappa)), kappa = max(1, sqrt|mean|). It is tightened
+  /// until it is at most the tolerance or rounding is all that is left; +inf where there is no value. The doubles in `batch` are taken as exact.
   /// Throws InvalidInput when the lengths do not agree.
   void compute(const HillBatch& batch, std::span<double> value, std::span<double> error);
 

@@ -1,4 +1,4 @@
-#include "floquet/splitting_propagators.hpp"
+#include "floquet/series_propagators.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -6,9 +6,10 @@
 namespace strutt {
 namespace {
 
+constexpr double kUnit = 0x1p-53;
 constexpr std::size_t kMostFamilies = 64;
 
-/// Calls visit(name, weight) for each term of W besides its mean, named as in SplittingPropagators::Key.
+/// Calls visit(name, weight) for each term of W besides its mean, named as in SeriesPropagators::Key.
 template <typename Visit>
 void for_each_term(const PeriodicFunction& w, const Visit& visit) {
   for (const auto& h : w.harmonics()) {
@@ -17,18 +18,11 @@ void for_each_term(const PeriodicFunction& w, const Visit& visit) {
   }
 }
 
-ScaledMatrix2 scaled(const HillPropagators& lanes, std::size_t l, double kappa) {
-  ScaledMatrix2 result{
-      Eigen::Matrix2d{{lanes.u1[l], kappa * lanes.u2[l]}, {lanes.du1[l] / kappa, lanes.du2[l]}},
-      lanes.exponent[l]};
-  return result;
-}
-
 /// The coefficients of the members, in arrays.
 struct Lanes {
   std::vector<double> mean, weights;
 
-  Lanes(std::span<const SplittingJob> jobs, std::span<const std::size_t> members, std::size_t functions)
+  Lanes(std::span<const SeriesJob> jobs, std::span<const std::size_t> members, std::size_t functions)
       : mean(members.size()), weights(members.size() * functions) {
     for (std::size_t l = 0; l < members.size(); ++l) {
       const auto& w = jobs[members[l]].w;
@@ -51,34 +45,31 @@ struct Lanes {
 };
 
 /// Writes the results of a group to the members' places.
-void unpack(const HillGroup& group, std::span<const SplittingJob> jobs, std::span<const std::size_t> members,
-            std::vector<SplittingPropagation>& results) {
+void unpack(const HillGroup& group, std::span<const SeriesJob> jobs, std::span<const std::size_t> members,
+            std::vector<SeriesPropagation>& results) {
+  if (group.plan.steps == 0) return;
+  const auto& r = group.result;
   for (std::size_t l = 0; l < group.lanes.size(); ++l) {
     const std::size_t member = members[group.lanes[l]];
     const auto& job = jobs[member];
-    auto& result = results[member];
-    if (group.full == nullptr) continue;
-    result.matrix.value = scaled(group.result, l, job.kappa);
-    const double size = result.matrix.value.mantissa.cwiseAbs().maxCoeff();
+    const double kappa = job.kappa;
+    auto& [matrix, cost] = results[member];
+    matrix.value = {Eigen::Matrix2d{{r.u1[l], kappa * r.u2[l]}, {r.du1[l] / kappa, r.du2[l]}}, r.exponent[l]};
+    matrix.error =
+        Eigen::Matrix2d{{r.u1_error[l], kappa * r.u2_error[l]}, {r.du1_error[l] / kappa, r.du2_error[l]}};
+    const double size = matrix.value.mantissa.cwiseAbs().maxCoeff();
     const double radians = std::sqrt(job.w.bound()) * (job.piece.to - job.piece.from);
-    result.matrix.error =
-        Eigen::Matrix2d::Constant(size * (group.full->rounding() + job.coefficient_error * radians));
-    result.matrix.normalise();
-    result.check = result.matrix.value;
-    result.cost = {
-        .steps = group.plan.steps, .rejections = 0, .right_hand_sides = group.full->evaluations()};
-    if (group.half == nullptr) continue;
-    result.check = scaled(group.check, l, job.kappa);
-    result.check.normalise();
-    result.truncation_share = halving_share(group.plan.order);
-    result.check_cost = {
-        .steps = group.plan.steps / 2, .rejections = 0, .right_hand_sides = group.half->evaluations()};
+    matrix.error.array() += size * (kUnit + job.coefficient_error * radians);
+    matrix.normalise();
+    cost = {.steps = group.plan.steps,
+            .rejections = 0,
+            .right_hand_sides = static_cast<long>(group.plan.steps) * group.plan.terms};
   }
 }
 
 }  // namespace
 
-HillFamily& SplittingPropagators::family(const Key& key) {
+HillFamily& SeriesPropagators::family(const Key& key) {
   const auto found = families_.find(key);
   if (found != families_.end()) return found->second;
   if (families_.size() >= kMostFamilies) families_.clear();
@@ -90,9 +81,9 @@ HillFamily& SplittingPropagators::family(const Key& key) {
   return families_.try_emplace(key, std::move(basis), key.from, key.to, key.tolerance).first->second;
 }
 
-std::vector<SplittingPropagation> SplittingPropagators::propagate(std::span<const SplittingJob> jobs,
-                                                                  double tolerance, bool with_check) {
-  std::vector<SplittingPropagation> results(jobs.size());
+std::vector<SeriesPropagation> SeriesPropagators::propagate(std::span<const SeriesJob> jobs,
+                                                            double tolerance) {
+  std::vector<SeriesPropagation> results(jobs.size());
   std::map<Key, std::vector<std::size_t>> groups;
   Key key{.from = 0.0, .to = 0.0, .tolerance = tolerance, .harmonics = {}};
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -104,7 +95,7 @@ std::vector<SplittingPropagation> SplittingPropagators::propagate(std::span<cons
   }
   for (const auto& [common, members] : groups) {
     const Lanes lanes(jobs, members, common.harmonics.size());
-    family(common).propagate(lanes.batch(), with_check,
+    family(common).propagate(lanes.batch(),
                              [&](const HillGroup& group) { unpack(group, jobs, members, results); });
   }
   return results;
