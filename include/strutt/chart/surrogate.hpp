@@ -1,0 +1,94 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "strutt/chart/axis.hpp"
+#include "strutt/floquet/monodromy.hpp"
+#include "strutt/model/scene.hpp"
+
+namespace strutt {
+
+struct SurrogateOptions {
+  double tolerance = 1e-9;  ///< largest Monodromy::error wanted, 1e-13 <= tolerance <= 1e-2
+  int threads = 0;          ///< 0: all; the result does not depend on it
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// What building took, and how the check went.
+struct SurrogateReport {
+  std::size_t boxes = 0;  ///< interpolated
+  std::size_t boxes_left_out =
+      0;  ///< left to point by point: not worth it, too steep, or without a model somewhere
+  std::size_t failed_checks = 0;  ///< left to point by point because the check failed
+  std::size_t nodes = 0;          ///< points that were integrated to build
+  std::size_t checks = 0;         ///< scattered points that were integrated to check
+  double largest_check =
+      0.0;  ///< largest |surrogate - engine| of a factor, divided by the sum of both bounds
+  int highest_degree = 0;
+  long right_hand_sides = 0;
+};
+
+/// A box of the two axis coordinates (the parameter, or its logarithm on a logarithmic axis), and on it each
+/// half-period factor f of [u1, kappa u2; u1'/kappa, u2'] = f * 2^exponent as
+///   f(x, y) = sum_ij c_ij T_i(s) T_j(t),   s, t in [-1, 1] across the box.
+struct SurrogateBox {
+  std::array<double, 2> low{}, high{};  ///< in axis coordinates
+  bool interpolated = false;            ///< false: no surrogate here
+  long exponent = 0;
+  double kappa = 1.0;                           ///< of the coefficients; that of a point may differ
+  std::array<Eigen::MatrixXd, 4> coefficients;  ///< of u1, u2, u1', u2': (degree_x + 1) x (degree_y + 1)
+  std::array<double, 4> error{};                ///< bounds of the factors' errors anywhere in the box
+};
+
+/// A Chebyshev surrogate of the half-period factors of a Hill equation with an even coefficient over two
+/// parameters.
+///
+/// The factors are analytic in the parameters, so their interpolants in Chebyshev points converge
+/// geometrically. The degree is doubled in the direction whose last coefficients are larger until the scaled
+/// error of M is below the tolerance at every node; a box whose degree would pass 64, or in which small
+/// values drown in large ones, is cut in two. The error of a box is twice the sum of the last coefficients,
+/// plus the error of the nodes times the Lebesgue constant, plus the rounding of coordinates, transform and
+/// sum. Every box is checked at pseudo-random points (fixed seed) against the engine at a tighter tolerance;
+/// one that fails is given up. Damping shifts the mean of the coefficient and scales the multipliers; the
+/// factors are those of the equation without it.
+class Surrogate {
+ public:
+  /// Why there can be no surrogate over these axes; empty if there can: one-degree-of-freedom model with a
+  /// smooth coefficient that is even about the same phase everywhere, both axes with two points or more. The
+  /// points of the axes matter only to what is worth a box: one with fewer cells than nodes is not.
+  static std::string refusal(const Scene& scene, const Axis& x, const Axis& y);
+
+  /// Throws InvalidInput with the refusal if there is one, or for a tolerance out of range.
+  Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options = {});
+
+  /// The monodromy at one point, nothing where there is no surrogate. `half` is about the even phase theta0;
+  /// `matrix` and `undamped` are those over [theta0, theta0 + 2 pi], similar to those from 0: trace, margin,
+  /// growth and winding are the same. `error` is that of `matrix`; outcome tolerance_not_reached where it is
+  /// above the tolerance.
+  std::optional<Monodromy> monodromy(double x, double y) const;
+
+  const std::vector<SurrogateBox>& boxes() const { return boxes_; }  ///< disjoint, together the chart
+  const SurrogateReport& report() const { return report_; }
+  double even_phase() const { return even_phase_; }
+  bool cancelled() const { return cancelled_; }  ///< then it must not be used
+
+  /// The coordinate of a parameter value in which the boxes are given.
+  static double coordinate(const Axis& axis, double value);
+
+ private:
+  Scene scene_;
+  Axis x_, y_;
+  SurrogateOptions options_;
+  double even_phase_ = 0.0;
+  std::vector<SurrogateBox> boxes_;
+  SurrogateReport report_;
+  bool cancelled_ = false;
+};
+
+}  // namespace strutt
