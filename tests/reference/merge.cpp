@@ -38,7 +38,10 @@ const std::vector<Kind>& kinds() {
          "c,k1,k2,k12,p11,p12,p22,m11,m12,m13,m14,m21,m22,m23,m24,m31,m32,m33,m34,m41,m42,m43,m44", 16, linear},
         {"motion", "phi'' + damping phi' + alpha^2 (1 + r''/gravity) sin phi = 0, alpha^2 = 3 gravity / (2 length), "
                    "r = amplitude sin(frequency t), phi(0) = angle0, phi'(0) = velocity0",
-         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity", 2, nonlinear}};
+         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity", 2, nonlinear},
+        {"long_motion", "the equation of motion.csv; s is the largest |entry| of "
+                        "d(phi, phi'/alpha)/d(phi0, phi0'/alpha), at least 1",
+         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity,s", 3, nonlinear}};
     return list;
 }
 
