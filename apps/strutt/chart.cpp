@@ -38,7 +38,7 @@ Axis chosen_axis(const std::string& name, const std::optional<std::string>& flag
 ChartRequest request_of(const ChartArguments& arguments, const SceneFile& scene) {
   ChartRequest request;
   request.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(request.tolerance));
-  request.method = method_of(arguments, "chart", {Method::propagator, Method::cvode, Method::arkode, Method::exact});
+  request.method = method_of(arguments, "chart", {Method::surrogate, Method::propagator, Method::cvode, Method::arkode, Method::exact});
   request.threads = threads_of(arguments);
   request.x = chosen_axis("x", arguments.x, scene.chart.x, scene.scene);
   request.y = chosen_axis("y", arguments.y, scene.chart.y, scene.scene);

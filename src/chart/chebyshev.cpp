@@ -34,6 +34,4 @@ void polynomials(std::span<const double> t, int degree, Eigen::MatrixXd& result)
   }
 }
 
-double lebesgue_constant(int n) { return 1.0 + 2.0 / pi * std::log(n + 1.0); }
-
 }  // namespace strutt::chebyshev

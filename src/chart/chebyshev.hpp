@@ -16,8 +16,4 @@ Eigen::MatrixXd transform(int n);
 /// the last place.
 void polynomials(std::span<const double> t, int degree, Eigen::MatrixXd& result);
 
-/// A bound of the Lebesgue constant of these points (Trefethen, Approximation Theory and Approximation
-/// Practice, theorem 15.2): by how much the interpolant can exceed the errors at the nodes.
-double lebesgue_constant(int n);
-
 }  // namespace strutt::chebyshev

@@ -79,6 +79,7 @@ std::optional<CentredEquation> HalfPeriodModel::at(double x, double y) {
   CentredEquation result;
   result.half_damping = c * std::numbers::pi;
   result.kappa = found->canonical_kappa();
+  result.kappa_square = found->plain_kappa ? 0.0 : std::abs(found->coefficient.mean());
   const auto w = found->coefficient.centred(even_phase_).plus(-0.25 * c * c);
   double coefficient_error = found->coefficient_error + found->coefficient.asymmetry(even_phase_);
   if (c != 0.0) {  // the rounding of c^2/4 and of the difference, relative to what is left

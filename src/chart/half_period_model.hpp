@@ -15,7 +15,8 @@ namespace strutt {
 struct CentredEquation {
   HillEquation equation;      ///< undamped; the shift by -c^2/4 is in its mean
   double half_damping = 0.0;  ///< h = cT/2
-  double kappa = 1.0;         ///< canonical kappa of the equation of x
+  double kappa = 1.0;         ///< canonical kappa of the equation of x, max(1, sqrt(kappa_square))
+  double kappa_square = 0.0;  ///< |mean of its coefficient|; 0 where kappa is 1 whatever that is
 };
 
 /// The half-period factors of one point, [u1, u2; u1', u2'] = value * 2^exponent, canonical time, with
@@ -25,6 +26,7 @@ struct HalfPeriodSample {
   std::array<double, 4> error{};
   long exponent = 0;
   double half_damping = 0.0, kappa = 1.0;
+  long quadrant = -1;  ///< floor(2/pi times the angle of (u2', u2)), whole turns counted; -1: not known
   long right_hand_sides = 0;
   bool valid = false;
 };

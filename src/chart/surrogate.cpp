@@ -6,7 +6,9 @@
 #include <memory>
 #include <random>
 
-#include "chart/half_period_factors.hpp"
+#include "chart/factor_error.hpp"
+#include "chart/half_period_nodes.hpp"
+#include "chart/product_table.hpp"
 #include "chart/surrogate_box.hpp"
 #include "floquet/assembly.hpp"
 #include "strutt/base/error.hpp"
@@ -16,9 +18,12 @@ namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-// Of the tolerance, for the engine: the errors at the nodes that have the largest factors count where they are small too.
-constexpr double kNodeShare = 1e-4, kCheckShare = 1e-4;
-constexpr double kLowestTolerance = 1e-13;
+// Of the tolerance, for the engine: the errors at the nodes that have the largest factors count where they
+// are small too.
+constexpr double kNodeShare = 1e-6, kCheckShare = 1e-4;
+constexpr double kLowestNodeTolerance = 1e-16, kLowestTolerance = 1e-13;
+constexpr double kShareOfCells =
+    0.25;                     // the nodes of all boxes, tried ones included, as a share of the cells
 constexpr int kChecks = 16;   // per box
 constexpr int kDeepest = 24;  // halvings from the whole chart to a box
 constexpr std::size_t kMostBoxes = 4096;
@@ -34,29 +39,38 @@ double coordinate_error(const Axis& axis, double low, double high) {
   return axis.scale == AxisScale::linear ? kUnit * largest : 4.0 * kUnit * (1.0 + largest);
 }
 
-/// Integrates points with all threads.
-class Sampler {
+/// Parameter values of points in axis coordinates.
+std::vector<std::array<double, 2>> parameter_values(const Axis& x, const Axis& y,
+                                                    const std::vector<std::array<double, 2>>& points) {
+  std::vector<std::array<double, 2>> values;
+  for (const auto& p : points) values.push_back({parameter_value(x, p[0]), parameter_value(y, p[1])});
+  return values;
+}
+
+/// The engine at scattered points, one model per thread.
+class Referee {
  public:
-  Sampler(const Scene& scene, const Axis& x, const Axis& y, double even_phase,
+  Referee(const Scene& scene, const Axis& x, const Axis& y, double even_phase,
           const SurrogateOptions& options)
-      : x_(x), y_(y), parallel_{.threads = options.threads, .cancel = options.cancel} {
+      : parallel_{.threads = options.threads, .cancel = options.cancel},
+        tolerance_(std::max(kCheckShare * options.tolerance, kLowestTolerance)) {
     for (int slot = 0; slot < thread_count(parallel_); ++slot)
       models_.push_back(std::make_unique<HalfPeriodModel>(scene, x, y, even_phase));
   }
 
-  bool sample(const std::vector<std::array<double, 2>>& points, double tolerance,
-              std::vector<HalfPeriodSample>& result) {
-    result.resize(points.size());
-    const bool complete = parallel_for(points.size(), parallel_, [&](std::size_t i, int slot) {
-      result[i] = models_[static_cast<std::size_t>(slot)]->sample(
-          parameter_value(x_, points[i][0]), parameter_value(y_, points[i][1]), tolerance, parallel_.cancel);
+  /// At parameter values. False: cancelled.
+  bool sample(const std::vector<std::array<double, 2>>& values, std::vector<HalfPeriodSample>& result) {
+    result.resize(values.size());
+    const bool complete = parallel_for(values.size(), parallel_, [&](std::size_t i, int slot) {
+      result[i] = models_[static_cast<std::size_t>(slot)]->sample(values[i][0], values[i][1], tolerance_,
+                                                                  parallel_.cancel);
     });
     return complete && !(parallel_.cancel != nullptr && parallel_.cancel->load());
   }
 
  private:
-  Axis x_, y_;
   ParallelOptions parallel_;
+  double tolerance_;
   std::vector<std::unique_ptr<HalfPeriodModel>> models_;
 };
 
@@ -104,11 +118,11 @@ std::vector<std::array<double, 2>> scattered(const SurrogateBox& box, std::mt199
 }
 
 /// False: cancelled.
-bool check(SurrogateBox& box, Sampler& sampler, double tolerance, std::mt19937_64& random,
+bool check(SurrogateBox& box, const Axis& x, const Axis& y, Referee& referee, std::mt19937_64& random,
            SurrogateReport& report) {
   const auto points = scattered(box, random);
   std::vector<HalfPeriodSample> engine;
-  if (!sampler.sample(points, std::max(kCheckShare * tolerance, kLowestTolerance), engine)) return false;
+  if (!referee.sample(parameter_values(x, y, points), engine)) return false;
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     largest = std::max(largest, disagreement(box, points[i], engine[i]));
@@ -136,7 +150,19 @@ double Surrogate::coordinate(const Axis& axis, double value) {
 
 std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y) {
   if (x.points < 2 || y.points < 2) return "an axis has only one point";
-  return even_point(scene, x, y).reason;
+  const auto even = even_point(scene, x, y);
+  if (!even.reason.empty()) return even.reason;
+  HalfPeriodModel model(scene, x, y, even.phase);
+  const Axis few_x{x.parameter, x.from, x.to, 2, x.scale}, few_y{y.parameter, y.from, y.to, 2, y.scale};
+  for (const auto property : {&CentredEquation::half_damping, &CentredEquation::kappa_square}) {
+    const auto value = [&](double px, double py) {
+      const auto point = model.at(px, py);
+      return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
+    };
+    if (!ProductTable::of(value, few_x, few_y))
+      return "damping or mean of the coefficient is not a product of functions of the two parameters";
+  }
+  return "";
 }
 
 Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options)
@@ -148,10 +174,12 @@ Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const Sur
     throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
   even_phase_ = even_point(scene, x, y).phase;
 
-  Sampler sampler(scene, x, y, even_phase_, options);
-  const double node_tolerance = std::max(kNodeShare * options.tolerance, kLowestTolerance);
+  HalfPeriodNodes nodes(scene, x, y, even_phase_, {.threads = options.threads, .cancel = options.cancel},
+                        options.winding);
+  Referee referee(scene, x, y, even_phase_, options);
+  const double node_tolerance = std::max(kNodeShare * options.tolerance, kLowestNodeTolerance);
   const Sampling sampling = [&](const auto& points, auto& result) {
-    return sampler.sample(points, node_tolerance, result);
+    return nodes.sample(parameter_values(x, y, points), node_tolerance, result);
   };
   SurrogateBox whole;
   for (const auto& [axis, index] : {std::pair{x, std::size_t{0}}, std::pair{y, std::size_t{1}}}) {
@@ -161,17 +189,19 @@ Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const Sur
   }
   const std::array<double, 2> rounding{coordinate_error(x, whole.low[0], whole.high[0]),
                                        coordinate_error(y, whole.low[1], whole.high[1])};
+  const double budget = kShareOfCells * cells_in(whole, whole, x, y);
   std::mt19937_64 random(1928);  // one seed, so that the same chart is checked at the same points
   std::deque<Pending> pending{{whole, 0}};
   while (!pending.empty()) {
     auto [box, depth] = std::move(pending.front());
     pending.pop_front();
-    const double affordable = cells_in(box, whole, x, y);
+    const double affordable =
+        std::min(cells_in(box, whole, x, y), budget - static_cast<double>(report_.nodes));
     const auto build = build_box(box, sampling, rounding, options.tolerance, affordable);
     report_.nodes += build.nodes;
     report_.right_hand_sides += build.right_hand_sides;
     cancelled_ = build.outcome == BoxOutcome::cancelled;
-    if (box.interpolated) cancelled_ = !check(box, sampler, options.tolerance, random, report_);
+    if (box.interpolated) cancelled_ = !check(box, x, y, referee, random, report_);
     if (cancelled_) return;
     const bool split = build.outcome == BoxOutcome::split_x || build.outcome == BoxOutcome::split_y;
     if (split && depth < kDeepest && boxes_.size() + pending.size() < kMostBoxes) {

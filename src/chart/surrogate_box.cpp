@@ -2,17 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "chart/chebyshev.hpp"
-#include "chart/half_period_factors.hpp"
+#include "chart/factor_error.hpp"
 
 namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
 constexpr int kFirstDegree = 8, kHighestDegree = 64;
-constexpr double kShareAtNodes = 0.4;   // of the tolerance: between nodes the factors can be smaller
-constexpr double kShareAfterCut = 0.8;  // the same, once coefficients that do not matter are dropped
+// The rounding of nodes is independent from one to the next, and the squares of the Lagrange polynomials of
+// Chebyshev points sum to at most 1: it does not grow between nodes. Their truncation is as smooth as the
+// factors and does not either.
+constexpr double kNodeErrorGrowth = 2.0;
+constexpr double kLeastRounding = 64.0 * kUnit;  // of transform and sum, relative to the factors
+constexpr double kShareAtNodes = 0.4;            // of the tolerance: between nodes the factors can be smaller
+constexpr double kLargestAngleError = 0.5;       // in quarter turns; two would be too much
+constexpr double kShareAfterCut = 0.8;           // the same, once coefficients that do not matter are dropped
 
 using Factors = std::array<double, 4>;
 
@@ -93,7 +100,6 @@ Tail fit(SurrogateBox& box, const Grid& grid, const std::array<double, 2>& coord
   for (const auto& sample : grid.samples) box.exponent = std::max(box.exponent, sample.exponent);
   const Factors units{1.0, box.kappa, 1.0 / box.kappa, 1.0};
   const Eigen::MatrixXd to_x = chebyshev::transform(grid.nx), to_y = chebyshev::transform(grid.ny);
-  const double lebesgue = chebyshev::lebesgue_constant(grid.nx) * chebyshev::lebesgue_constant(grid.ny);
   const std::array<double, 2> eta{3.0 * kUnit + 2.0 * coordinate_error[0] / (box.high[0] - box.low[0]),
                                   3.0 * kUnit + 2.0 * coordinate_error[1] / (box.high[1] - box.low[1])};
   Tail worst;
@@ -113,7 +119,7 @@ Tail fit(SurrogateBox& box, const Grid& grid, const std::array<double, 2>& coord
     worst = {std::max(worst.x, tail.x), std::max(worst.y, tail.y)};
     // the transform errs like a random walk of its terms
     const double transform_error = 8.0 * kUnit * std::sqrt(grid.nx + grid.ny) * values.cwiseAbs().maxCoeff();
-    box.error[f] = 2.0 * (tail.x + tail.y) + lebesgue * (node_error + transform_error) +
+    box.error[f] = 2.0 * (tail.x + tail.y) + kNodeErrorGrowth * (node_error + transform_error) +
                    rounding_of(box.coefficients[f], eta);
   }
   return worst;
@@ -142,6 +148,41 @@ BoxOutcome steeper(const SurrogateBox& box, const Grid& grid) {
   for (int j = 0; j <= grid.ny; ++j) along_x = std::max(along_x, std::abs(size(0, j) - size(grid.nx, j)));
   for (int i = 0; i <= grid.nx; ++i) along_y = std::max(along_y, std::abs(size(i, 0) - size(i, grid.ny)));
   return along_x >= along_y ? BoxOutcome::split_x : BoxOutcome::split_y;
+}
+
+/// Whether most nodes miss the tolerance by their own errors, whatever stands beside them: a smaller box
+/// would not help.
+bool is_hopeless(const Grid& grid, double tolerance) {
+  std::size_t missed = 0;
+  for (const auto& sample : grid.samples) {
+    Factors error;
+    for (std::size_t f = 0; f < 4; ++f)
+      error[f] = kNodeErrorGrowth * sample.error[f] + kLeastRounding * std::abs(sample.value[f]);
+    const auto factors = at_kappa(sample.value, error, sample.kappa);
+    const FactorScale scale(sample.exponent, sample.half_damping, sample.kappa);
+    if (monodromy_error(factors.value, factors.error, scale) > kShareAtNodes * tolerance) ++missed;
+  }
+  return 2 * missed > grid.samples.size();
+}
+
+/// The angle of (u2', kappa u2) in quarter turns, where it is known at all nodes and smooth enough to tell
+/// whole turns apart; empty otherwise.
+Eigen::MatrixXd fit_quarter_turns(const SurrogateBox& box, const Grid& grid) {
+  Eigen::MatrixXd values(grid.nx + 1, grid.ny + 1);
+  for (int i = 0; i <= grid.nx; ++i) {
+    for (int j = 0; j <= grid.ny; ++j) {
+      const auto& sample = grid.samples[grid.index(i, j)];
+      if (sample.quadrant < 0) return {};
+      const double end = std::atan2(sample.value[1] * box.kappa, sample.value[3]) / (0.5 * std::numbers::pi);
+      const double middle = static_cast<double>(sample.quadrant) + 0.5;
+      values(i, j) = end + 4.0 * std::round((middle - end) / 4.0);
+    }
+  }
+  const Eigen::MatrixXd c =
+      chebyshev::transform(grid.nx) * values * chebyshev::transform(grid.ny).transpose();
+  const Tail tail = tail_of(c);
+  if (!(2.0 * (tail.x + tail.y) < kLargestAngleError)) return {};
+  return c;
 }
 
 /// Drops the last rows and columns of all coefficients while what they add up to is below `allowed`.
@@ -200,6 +241,7 @@ BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array
       Factors allowed = box.error;
       for (double& a : allowed) a *= kShareAfterCut * tolerance / error - 1.0;
       cut(box, allowed);
+      box.quarter_turns = fit_quarter_turns(box, grid);
       box.interpolated = true;
       build.outcome = BoxOutcome::interpolated;
       return build;
@@ -208,6 +250,7 @@ BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array
     Factors from_tail{};
     from_tail.fill(2.0 * (tail.x + tail.y));
     if (worst_error(box, grid, from_tail) <= 0.1 * error) {
+      if (is_hopeless(grid, tolerance)) return build;
       build.outcome = steeper(box, grid);
       return build;
     }

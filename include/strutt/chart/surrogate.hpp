@@ -17,6 +17,7 @@ namespace strutt {
 struct SurrogateOptions {
   double tolerance = 1e-9;  ///< largest Monodromy::error wanted, 1e-13 <= tolerance <= 1e-2
   int threads = 0;          ///< 0: all; the result does not depend on it
+  bool winding = false;     ///< also what the winding number needs
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -43,7 +44,9 @@ struct SurrogateBox {
   long exponent = 0;
   double kappa = 1.0;                           ///< of the coefficients; that of a point may differ
   std::array<Eigen::MatrixXd, 4> coefficients;  ///< of u1, u2, u1', u2': (degree_x + 1) x (degree_y + 1)
-  std::array<double, 4> error{};                ///< bounds of the factors' errors anywhere in the box
+  std::array<double, 4> error{};  ///< bounds of the factors' errors anywhere in the box
+  /// The angle of (u2', kappa u2) in quarter turns, whole turns counted, to half a quarter turn; may be empty.
+  Eigen::MatrixXd quarter_turns;
 };
 
 /// A Chebyshev surrogate of the half-period factors of a Hill equation with an even coefficient over two
@@ -53,7 +56,7 @@ struct SurrogateBox {
 /// geometrically. The degree is doubled in the direction whose last coefficients are larger until the scaled
 /// error of M is below the tolerance at every node; a box whose degree would pass 64, or in which small
 /// values drown in large ones, is cut in two. The error of a box is twice the sum of the last coefficients,
-/// plus the error of the nodes times the Lebesgue constant, plus the rounding of coordinates, transform and
+/// plus twice the error of the nodes, plus the rounding of coordinates, transform and
 /// sum. Every box is checked at pseudo-random points (fixed seed) against the engine at a tighter tolerance;
 /// one that fails is given up. Damping shifts the mean of the coefficient and scales the multipliers; the
 /// factors are those of the equation without it.

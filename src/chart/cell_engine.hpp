@@ -1,0 +1,32 @@
+#pragma once
+
+#include "strutt/chart/stability_chart.hpp"
+#include "strutt/floquet/stability.hpp"
+
+namespace strutt {
+
+/// Point by point: one thread's model and integrators. Pointers into the scene let a cell set its two
+/// parameters in place.
+class CellEngine {
+ public:
+  CellEngine(const Scene& scene, const ChartRequest& request);
+  CellEngine(const CellEngine&) = delete;
+
+  Stability compute(double x, double y);
+
+ private:
+  Scene scene_;
+  double* x_;
+  double* y_;
+  MonodromyOptions options_;
+  StabilityParts parts_{.winding = false, .matrix = false};
+  MonodromyEngine engine_;
+};
+
+/// What a layer holds for a cell.
+double layer_value(const Stability& cell, Layer layer);
+
+/// The trace of M as written to charts: beyond 1e300 it is infinite.
+double written_trace(double trace);
+
+}  // namespace strutt

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "chart/half_period_model.hpp"
+#include "strutt/base/parallel.hpp"
+#include "strutt/integrate/hill_propagator.hpp"
+
+namespace strutt {
+
+/// Half-period factors at many points at once: the splitting of integrate/hill_propagator over all points
+/// that need the same number of steps, checked by a run with half of them. The same bits for any number of
+/// threads.
+class HalfPeriodNodes {
+ public:
+  /// With `with_quadrant` the samples hold their quadrant.
+  HalfPeriodNodes(const Scene& scene, const Axis& x, const Axis& y, double even_phase,
+                  const ParallelOptions& parallel, bool with_quadrant);
+
+  /// result[i] at the parameter values points[i], to a truncation of about `tolerance` (any, also below what
+  /// rounding allows; the bounds in the result count). False: cancelled.
+  bool sample(const std::vector<std::array<double, 2>>& points, double tolerance,
+              std::vector<HalfPeriodSample>& result);
+
+ private:
+  const HillPropagator& table(const HillStepPlan& plan, const std::vector<int>& harmonics);
+
+  ParallelOptions parallel_;
+  bool with_quadrant_;
+  HalfPeriodModel model_;
+  std::map<std::tuple<int, int, std::vector<int>>, HillPropagator> tables_;  // order, steps, harmonics
+};
+
+}  // namespace strutt
