@@ -94,7 +94,7 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
   auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
   add_scene(*command, arguments);
-  add_common(*command, arguments, "largest error of trace and M", "propagator, cvode, arkode, exact");
+  add_common(*command, arguments, "largest error of trace and M", "surrogate, propagator, cvode, arkode, exact");
   command
       ->add_option("--x", arguments.x,
                    "horizontal axis: parameter path, ends, number of points, :log for a log axis")

@@ -14,16 +14,21 @@ struct FactorScale {
   double half_damping = 0.0;
   double decay = 1.0;  ///< exp(-half_damping)
   double slope = 0.0;  ///< c/(2 kappa) in canonical time, see restore_damping
+  /// The factors are seen from another phase than 0: M from there is not the one from 0, of which only the
+  /// trace is known, and that its entries are at least half as large.
+  bool shifted = false;
 
-  FactorScale(long exponent, double h, double kappa)
+  FactorScale(long exponent, double h, double kappa, bool from_elsewhere)
       : square(std::ldexp(1.0, static_cast<int>(std::clamp(2 * exponent, -5000L, 5000L)))),
         half_damping(h),
         decay(h == 0.0 ? 1.0 : std::exp(-h)),
-        slope(0.5 * h / (std::numbers::pi * kappa)) {}
+        slope(0.5 * h / (std::numbers::pi * kappa)),
+        shifted(from_elsewhere) {}
 };
 
 /// Monodromy::error of M = exp(-h) L N L^-1, N = [u1 u2' + u1' u2, 2 u2 u2'; 2 u1 u1', same], from factors
-/// with bounds, in the state scaled by the point's kappa. Order: u1, u2, u1', u2'.
+/// with bounds, in the state scaled by the point's kappa. Order: u1, u2, u1', u2'. If shifted, not less than
+/// the same of the trace alone, relative to M from 0.
 inline double monodromy_error(const std::array<double, 4>& f, const std::array<double, 4>& e,
                               const FactorScale& scale) {
   constexpr double kUnit = 0x1p-53;
@@ -43,7 +48,12 @@ inline double monodromy_error(const std::array<double, 4>& f, const std::array<d
     largest = std::max({std::abs(a + s * b), std::abs(b), std::abs(g - s * s * b), std::abs(a - s * b)});
   }
   const double unit = scale.square * scale.decay;
-  return (largest * unit > 1.0 ? largest_error / largest : largest_error * unit) + 4.0 * kUnit;
+  const auto relative = [unit](double error, double size) {
+    return size * unit > 1.0 ? error / size : error * unit;
+  };
+  const double error = relative(largest_error, largest) + 4.0 * kUnit;
+  if (!scale.shifted) return error;
+  return std::max(error, relative(2.0 * ea, std::abs(a)) + (8.0 + 4.0 * scale.half_damping) * kUnit);
 }
 
 }  // namespace strutt

@@ -78,6 +78,7 @@ std::optional<CentredEquation> HalfPeriodModel::at(double x, double y) {
   const double c = found->canonical_damping();
   CentredEquation result;
   result.half_damping = c * std::numbers::pi;
+  result.shifted = even_phase_ != 0.0;
   result.kappa = found->canonical_kappa();
   result.kappa_square = found->plain_kappa ? 0.0 : std::abs(found->coefficient.mean());
   const auto w = found->coefficient.centred(even_phase_).plus(-0.25 * c * c);
@@ -100,6 +101,7 @@ HalfPeriodSample HalfPeriodModel::sample(double x, double y, double tolerance,
   result.right_hand_sides = found.cost.right_hand_sides + found.estimate_cost.right_hand_sides;
   result.half_damping = point->half_damping;
   result.kappa = point->kappa;
+  result.shifted = point->shifted;
   const bool has_value =
       found.outcome == Outcome::converged || found.outcome == Outcome::tolerance_not_reached;
   if (!has_value || !found.half) return result;

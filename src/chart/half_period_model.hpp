@@ -15,6 +15,7 @@ namespace strutt {
 struct CentredEquation {
   HillEquation equation;      ///< undamped; the shift by -c^2/4 is in its mean
   double half_damping = 0.0;  ///< h = cT/2
+  bool shifted = false;       ///< the even point is not the phase 0
   double kappa = 1.0;         ///< canonical kappa of the equation of x, max(1, sqrt(kappa_square))
   double kappa_square = 0.0;  ///< |mean of its coefficient|; 0 where kappa is 1 whatever that is
 };
@@ -26,7 +27,8 @@ struct HalfPeriodSample {
   std::array<double, 4> error{};
   long exponent = 0;
   double half_damping = 0.0, kappa = 1.0;
-  long quadrant = -1;  ///< floor(2/pi times the angle of (u2', u2)), whole turns counted; -1: not known
+  bool shifted = false;  ///< seen from another phase than 0
+  long quadrant = -1;    ///< floor(2/pi times the angle of (u2', u2)), whole turns counted; -1: not known
   long right_hand_sides = 0;
   bool valid = false;
 };

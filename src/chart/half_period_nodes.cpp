@@ -91,6 +91,7 @@ HalfPeriodSample sample_of(const CentredEquation& point, const HillPropagators& 
   result.exponent = full.exponent[l];
   result.half_damping = point.half_damping;
   result.kappa = point.kappa;
+  result.shifted = point.shifted;
   result.value = scaled(full, l, point.kappa, result.exponent);
   const auto check = scaled(half, l, point.kappa, result.exponent);
   double size = 0.0, difference = 0.0;

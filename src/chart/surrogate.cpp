@@ -236,7 +236,7 @@ std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
   half.normalise();
 
   const double h = point->half_damping;
-  const FactorScale scale(found->exponent, h, point->kappa);
+  const FactorScale scale(found->exponent, h, point->kappa, point->shifted);
   Monodromy result;
   result.undamped = period_from_half({half}, 0);
   result.matrix = restore_damping(result.undamped, h, scale.slope);

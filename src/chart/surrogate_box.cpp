@@ -135,7 +135,7 @@ double worst_error(const SurrogateBox& box, const Grid& grid, const Factors& err
     value[1] *= box.kappa;
     value[2] /= box.kappa;
     const auto factors = at_kappa(value, error, sample.kappa / box.kappa);
-    const FactorScale scale(box.exponent, sample.half_damping, sample.kappa);
+    const FactorScale scale(box.exponent, sample.half_damping, sample.kappa, sample.shifted);
     worst = std::max(worst, monodromy_error(factors.value, factors.error, scale));
   }
   return worst;
@@ -159,7 +159,7 @@ bool is_hopeless(const Grid& grid, double tolerance) {
     for (std::size_t f = 0; f < 4; ++f)
       error[f] = kNodeErrorGrowth * sample.error[f] + kLeastRounding * std::abs(sample.value[f]);
     const auto factors = at_kappa(sample.value, error, sample.kappa);
-    const FactorScale scale(sample.exponent, sample.half_damping, sample.kappa);
+    const FactorScale scale(sample.exponent, sample.half_damping, sample.kappa, sample.shifted);
     if (monodromy_error(factors.value, factors.error, scale) > kShareAtNodes * tolerance) ++missed;
   }
   return 2 * missed > grid.samples.size();

@@ -87,6 +87,7 @@ SurrogateCells::Count SurrogateCells::fill_piece(const GridPiece& piece, ChartSt
   const SurrogateBox& box = grid_.box(piece);
   const double* const values = worker.factors.values.data();
   const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
+  const bool shifted = surrogate_.even_phase() != 0.0;
   Count count;
   for (std::size_t c = 0; c < piece.columns; ++c) {
     const std::size_t column = piece.first_column + c;
@@ -95,7 +96,7 @@ SurrogateCells::Count SurrogateCells::fill_piece(const GridPiece& piece, ChartSt
     HalfPeriodFactors factors{{}, box.error, box.exponent};
     for (std::size_t f = 0; f < 4; ++f) factors.value[f] = values[f * FactorRow::stride + c];
     const auto scaled = at_kappa(factors.value, factors.error, kappa / box.kappa);
-    const double error = monodromy_error(scaled.value, scaled.error, {box.exponent, h, kappa});
+    const double error = monodromy_error(scaled.value, scaled.error, {box.exponent, h, kappa, shifted});
     if (!(error <= request_.tolerance)) continue;
     const auto gap = discriminant_gap(factors);
     const Margin margin = hill_margin(gap, h);

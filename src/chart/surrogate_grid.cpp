@@ -39,6 +39,7 @@ void contract(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, 
 }  // namespace
 
 SurrogateGrid::SurrogateGrid(const std::vector<SurrogateBox>& boxes, const Axis& x, const Axis& y) {
+  if (boxes.empty()) return;  // cancelled
   SurrogateBox whole = boxes.front();
   for (const auto& box : boxes) {
     for (std::size_t axis = 0; axis < 2; ++axis) {
