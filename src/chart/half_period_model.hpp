@@ -28,7 +28,6 @@ struct HalfPeriodSample {
   long exponent = 0;
   double half_damping = 0.0, kappa = 1.0;
   bool shifted = false;  ///< seen from another phase than 0
-  long quadrant = -1;    ///< floor(2/pi times the angle of (u2', u2)), whole turns counted; -1: not known
   long right_hand_sides = 0;
   bool valid = false;
 };

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "floquet/turned_angle.hpp"
 #include "strutt/integrate/hill_propagator.hpp"
 
 namespace strutt {
@@ -112,17 +111,11 @@ HalfPeriodSample sample_of(const CentredEquation& point, const HillPropagators& 
   return result;
 }
 
-long quadrant_of(const CentredEquation& point, const HalfPeriodSample& sample) {
-  const double angle = lifted_angle(point.equation.coefficient, pi, sample.value[1] * point.kappa,
-                                    sample.value[3], point.kappa);
-  return std::isfinite(angle) ? std::lround(std::floor(angle / (0.5 * pi))) : -1;
-}
-
 }  // namespace
 
 HalfPeriodNodes::HalfPeriodNodes(const Scene& scene, const Axis& x, const Axis& y, double even_phase,
-                                 const ParallelOptions& parallel, bool with_quadrant)
-    : parallel_(parallel), with_quadrant_(with_quadrant), model_(scene, x, y, even_phase) {}
+                                 const ParallelOptions& parallel)
+    : parallel_(parallel), model_(scene, x, y, even_phase) {}
 
 const HillPropagator& HalfPeriodNodes::table(const HillStepPlan& plan, const std::vector<int>& harmonics) {
   const std::tuple key{plan.order, plan.steps, harmonics};
@@ -164,7 +157,6 @@ bool HalfPeriodNodes::sample(const std::vector<std::array<double, 2>>& values, d
       auto& sample = result[members[l]];
       sample = sample_of(point, full, half, l, rounding, share);
       sample.right_hand_sides = group->full->evaluations() + group->half->evaluations();
-      if (with_quadrant_ && sample.valid) sample.quadrant = quadrant_of(point, sample);
     }
   });
   return complete && !(parallel_.cancel != nullptr && parallel_.cancel->load());

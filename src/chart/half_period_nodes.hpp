@@ -16,9 +16,8 @@ namespace strutt {
 /// threads.
 class HalfPeriodNodes {
  public:
-  /// With `with_quadrant` the samples hold their quadrant.
   HalfPeriodNodes(const Scene& scene, const Axis& x, const Axis& y, double even_phase,
-                  const ParallelOptions& parallel, bool with_quadrant);
+                  const ParallelOptions& parallel);
 
   /// result[i] at the parameter values points[i], to a truncation of about `tolerance` (any, also below what
   /// rounding allows; the bounds in the result count). False: cancelled.
@@ -29,7 +28,6 @@ class HalfPeriodNodes {
   const HillPropagator& table(const HillStepPlan& plan, const std::vector<int>& harmonics);
 
   ParallelOptions parallel_;
-  bool with_quadrant_;
   HalfPeriodModel model_;
   std::map<std::tuple<int, int, std::vector<int>>, HillPropagator> tables_;  // order, steps, harmonics
 };

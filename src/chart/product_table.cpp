@@ -1,5 +1,6 @@
 #include "chart/product_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -7,6 +8,16 @@ namespace strutt {
 namespace {
 
 constexpr double kSameProduct = 1e-13;
+
+bool all_equal(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [&](double v) { return v == values.front(); });
+}
+
+double largest_of(const std::vector<double>& values) {
+  double largest = 0.0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
 
 }  // namespace
 
@@ -34,6 +45,9 @@ std::optional<ProductTable> ProductTable::of(const Function& g, const Axis& x, c
     result.columns_.push_back(largest > 0.0 ? g(x.value(i), y0) : 0.0);
   for (std::size_t j = 0; j < y.points; ++j)
     result.rows_.push_back(largest > 0.0 ? g(x0, y.value(j)) / reference : 0.0);
+  result.same_in_all_rows_ = all_equal(result.rows_);
+  result.same_in_all_columns_ = all_equal(result.columns_);
+  result.largest_ = largest_of(result.columns_) * largest_of(result.rows_);
   return result;
 }
 

@@ -174,8 +174,7 @@ Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const Sur
     throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
   even_phase_ = even_point(scene, x, y).phase;
 
-  HalfPeriodNodes nodes(scene, x, y, even_phase_, {.threads = options.threads, .cancel = options.cancel},
-                        options.winding);
+  HalfPeriodNodes nodes(scene, x, y, even_phase_, {.threads = options.threads, .cancel = options.cancel});
   Referee referee(scene, x, y, even_phase_, options);
   const double node_tolerance = std::max(kNodeShare * options.tolerance, kLowestNodeTolerance);
   const Sampling sampling = [&](const auto& points, auto& result) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "chart/chebyshev.hpp"
 #include "chart/factor_error.hpp"
@@ -18,7 +17,6 @@ constexpr int kFirstDegree = 8, kHighestDegree = 64;
 constexpr double kNodeErrorGrowth = 2.0;
 constexpr double kLeastRounding = 64.0 * kUnit;  // of transform and sum, relative to the factors
 constexpr double kShareAtNodes = 0.4;            // of the tolerance: between nodes the factors can be smaller
-constexpr double kLargestAngleError = 0.5;       // in quarter turns; two would be too much
 constexpr double kShareAfterCut = 0.8;           // the same, once coefficients that do not matter are dropped
 
 using Factors = std::array<double, 4>;
@@ -165,26 +163,6 @@ bool is_hopeless(const Grid& grid, double tolerance) {
   return 2 * missed > grid.samples.size();
 }
 
-/// The angle of (u2', kappa u2) in quarter turns, where it is known at all nodes and smooth enough to tell
-/// whole turns apart; empty otherwise.
-Eigen::MatrixXd fit_quarter_turns(const SurrogateBox& box, const Grid& grid) {
-  Eigen::MatrixXd values(grid.nx + 1, grid.ny + 1);
-  for (int i = 0; i <= grid.nx; ++i) {
-    for (int j = 0; j <= grid.ny; ++j) {
-      const auto& sample = grid.samples[grid.index(i, j)];
-      if (sample.quadrant < 0) return {};
-      const double end = std::atan2(sample.value[1] * box.kappa, sample.value[3]) / (0.5 * std::numbers::pi);
-      const double middle = static_cast<double>(sample.quadrant) + 0.5;
-      values(i, j) = end + 4.0 * std::round((middle - end) / 4.0);
-    }
-  }
-  const Eigen::MatrixXd c =
-      chebyshev::transform(grid.nx) * values * chebyshev::transform(grid.ny).transpose();
-  const Tail tail = tail_of(c);
-  if (!(2.0 * (tail.x + tail.y) < kLargestAngleError)) return {};
-  return c;
-}
-
 /// Drops the last rows and columns of all coefficients while what they add up to is below `allowed`.
 void cut(SurrogateBox& box, Factors allowed) {
   bool rows_left = true, columns_left = true;
@@ -241,7 +219,6 @@ BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array
       Factors allowed = box.error;
       for (double& a : allowed) a *= kShareAfterCut * tolerance / error - 1.0;
       cut(box, allowed);
-      box.quarter_turns = fit_quarter_turns(box, grid);
       box.interpolated = true;
       build.outcome = BoxOutcome::interpolated;
       return build;

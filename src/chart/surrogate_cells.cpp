@@ -6,8 +6,6 @@
 #include <numbers>
 
 #include "chart/cell_engine.hpp"
-#include "chart/factor_error.hpp"
-#include "chart/surrogate_box.hpp"
 #include "floquet/half_period_factors.hpp"
 #include "floquet/turned_angle.hpp"
 
@@ -21,10 +19,7 @@ bool contains(const std::vector<Layer>& layers, Layer layer) {
 }
 
 SurrogateOptions options_of(const ChartRequest& request) {
-  return {.tolerance = request.tolerance,
-          .threads = request.threads,
-          .winding = contains(request.layers, Layer::winding),
-          .cancel = request.cancel};
+  return {.tolerance = request.tolerance, .threads = request.threads, .cancel = request.cancel};
 }
 
 /// A property of the equation at each cell; NaN where there is none.
@@ -37,13 +32,32 @@ ProductTable table_of(HalfPeriodModel& model, const ChartRequest& request,
   return *ProductTable::of(value, request.x, request.y);
 }
 
-/// trace M = exp(-h) 2 (u1 u2' + u1' u2) 2^(2 exponent).
-double trace_of(const HalfPeriodFactors& f, double half_damping) {
-  const double half_trace = f.value[0] * f.value[3] + f.value[1] * f.value[2];
-  const double shift = std::floor(-half_damping / std::numbers::ln2);
-  const double decay = half_damping == 0.0 ? 1.0 : std::exp(-half_damping - shift * std::numbers::ln2);
-  const double exponent = std::clamp(2.0 * static_cast<double>(f.exponent) + shift, -5000.0, 5000.0);
-  return std::ldexp(2.0 * decay * half_trace, static_cast<int>(exponent));
+/// Whether D stays in the range of plain_cells.
+bool is_plain(const SurrogateBox& box) {
+  double size = 0.0;
+  for (const auto& c : box.coefficients) size = std::max(size, c.cwiseAbs().sum());
+  const auto exponent = static_cast<double>(box.exponent);
+  return std::abs(exponent) < 500.0 &&
+         2.0 * (std::log(2.0 * size) + exponent * std::numbers::ln2) < kMostPlainLog;
+}
+
+/// The results for a layer; none for the outcome, which is the same for all.
+const double* layer_of(const CellRow& cells, Layer layer) {
+  switch (layer) {
+    case Layer::verdict:
+      return cells.verdict;
+    case Layer::growth:
+      return cells.growth;
+    case Layer::winding:
+      return cells.winding;
+    case Layer::discriminant:
+      return cells.trace;
+    case Layer::margin:
+      return cells.margin;
+    case Layer::outcome:
+      break;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -84,61 +98,87 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
 
 SurrogateCells::Count SurrogateCells::fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker) {
   grid_.evaluate(piece, worker.factors);
-  const SurrogateBox& box = grid_.box(piece);
-  const double* const values = worker.factors.values.data();
-  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
-  const bool shifted = surrogate_.even_phase() != 0.0;
-  Count count;
-  for (std::size_t c = 0; c < piece.columns; ++c) {
-    const std::size_t column = piece.first_column + c;
-    const double h = half_damping_(column, piece.row);
-    const double kappa = std::max(1.0, std::sqrt(kappa_square_(column, piece.row)));
-    HalfPeriodFactors factors{{}, box.error, box.exponent};
-    for (std::size_t f = 0; f < 4; ++f) factors.value[f] = values[f * FactorRow::stride + c];
-    const auto scaled = at_kappa(factors.value, factors.error, kappa / box.kappa);
-    const double error = monodromy_error(scaled.value, scaled.error, {box.exponent, h, kappa, shifted});
-    if (!(error <= request_.tolerance)) continue;
-    const auto gap = discriminant_gap(factors);
-    const Margin margin = hill_margin(gap, h);
-    const Verdict verdict = verdict_of(margin);
-    if (with_verdict_ && verdict == Verdict::unresolved) continue;
-    for (std::size_t l = 0; l < request_.layers.size(); ++l) {
-      double& value = strip.values[l][offset + c];
-      switch (request_.layers[l]) {
-        case Layer::verdict:
-          value = static_cast<double>(verdict);
-          break;
-        case Layer::growth:
-          value = hill_growth(gap, h);
-          break;
-        case Layer::winding:
-          value = winding_number(
-              factors, gap, quadrant(factors, quarter_turns(piece, c, factors.value, box.kappa, worker)));
-          break;
-        case Layer::discriminant:
-          value = written_trace(trace_of(factors, h));
-          break;
-        case Layer::margin:
-          value = margin.value;
-          break;
-        case Layer::outcome:
-          value = static_cast<double>(Outcome::converged);
-      }
-    }
-    done_[offset + c] = 1;
-    ++count.cells;
-    count.largest_error = std::max(count.largest_error, error);
-  }
-  return count;
+  compute_cells(piece, worker);
+  return write(piece, worker.cells, strip);
 }
 
-double SurrogateCells::quarter_turns(const GridPiece& piece, std::size_t c,
-                                     const std::array<double, 4>& factors, double kappa,
-                                     Worker& worker) const {
-  if (grid_.box(piece).quarter_turns.size() > 0) return worker.factors.values[4 * FactorRow::stride + c];
+void SurrogateCells::compute_cells(const GridPiece& piece, Worker& worker) const {
+  const SurrogateBox& box = grid_.box(piece);
+  CellRow& cells = worker.cells;
+  cells.count = piece.columns;
+  for (std::size_t f = 0; f < 4; ++f) cells.factors[f] = worker.factors.values.data() + f * FactorRow::stride;
+  cells.factor_error = box.error;
+  cells.exponent = box.exponent;
+  cells.box_kappa = box.kappa;
+  cells.shifted = surrogate_.even_phase() != 0.0;
+  cells.with_growth = contains(request_.layers, Layer::growth);
+  cells.with_winding = contains(request_.layers, Layer::winding);
+  worker.columns.set(half_damping_, kappa_square_, piece.row, piece.first_column, piece.columns);
+  worker.columns.give(cells);
+  if (cells.with_winding) count_turns(piece, worker);
+  cells.quarter_turns = worker.quarter_turns.data();
+  if (is_plain(box) && half_damping_.largest() < kMostPlainLog) {
+    plain_cells(cells);
+  } else {
+    cells_in_log_form(cells);
+  }
+}
+
+/// The quadrant of (u2', u2) at one cell, whole turns counted.
+double SurrogateCells::quadrant_at(const GridPiece& piece, std::size_t c, Worker& worker) const {
   const auto point = worker.model->at(request_.x.value(piece.first_column + c), request_.y.value(piece.row));
   if (!point) return std::numeric_limits<double>::quiet_NaN();
-  return lifted_angle(point->equation.coefficient, pi, factors[1], factors[3], kappa) / (0.5 * pi);
+  const double u2 = worker.cells.factors[1][c], du2 = worker.cells.factors[3][c];
+  return std::floor(lifted_angle(point->equation.coefficient, pi, u2, du2, grid_.box(piece).kappa) /
+                    (0.5 * pi));
+}
+
+/// The quadrants along a piece: counted at both ends, between them followed from cell to cell by the signs of
+/// u2 and u2'. Where these leave a choice, or the ends do not agree, every cell is counted.
+void SurrogateCells::count_turns(const GridPiece& piece, Worker& worker) const {
+  auto& turns = worker.quarter_turns;
+  turns.resize(FactorRow::stride);
+  const auto pattern = [&](std::size_t c) {
+    return sign_quadrant(worker.cells.factors[1][c], worker.cells.factors[3][c]);
+  };
+  const std::size_t last = piece.columns - 1;
+  bool certain = true;
+  double now = quadrant_at(piece, 0, worker);
+  int before = pattern(0);
+  turns[0] = now + 0.5;
+  for (std::size_t c = 1; c <= last; ++c) {
+    const int here = pattern(c), step = (here - before + 5) % 4 - 1;  // -1, 0, 1 or 2
+    certain = certain && step != 2;
+    now += step;
+    before = here;
+    turns[c] = now + 0.5;
+  }
+  if (certain && (last == 0 || now == quadrant_at(piece, last, worker))) return;
+  for (std::size_t c = 0; c <= last; ++c) turns[c] = quadrant_at(piece, c, worker) + 0.5;
+}
+
+/// Copies what holds into the strip.
+SurrogateCells::Count SurrogateCells::write(const GridPiece& piece, const CellRow& cells, ChartStrip& strip) {
+  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
+  constexpr double unresolved = static_cast<double>(Verdict::unresolved);
+  Count count;
+  for (std::size_t c = 0; c < cells.count; ++c) {
+    const bool holds =
+        cells.error[c] <= request_.tolerance && !(with_verdict_ && cells.verdict[c] == unresolved);
+    done_[offset + c] = holds ? 1 : 0;
+    count.cells += holds ? 1 : 0;
+    count.largest_error = std::max(count.largest_error, holds ? cells.error[c] : 0.0);
+  }
+  for (std::size_t l = 0; l < request_.layers.size(); ++l) {
+    double* const values = strip.values[l].data() + offset;
+    const double* const source = layer_of(cells, request_.layers[l]);
+    if (source == nullptr) {
+      std::fill_n(values, cells.count, static_cast<double>(Outcome::converged));
+    } else {
+      std::copy_n(source, cells.count, values);  // cells that do not hold are written again, point by point
+    }
+  }
+  return count;
 }
 
 }  // namespace strutt

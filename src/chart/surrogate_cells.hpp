@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "chart/cell_columns.hpp"
+#include "chart/cell_row.hpp"
 #include "chart/half_period_model.hpp"
 #include "chart/product_table.hpp"
 #include "chart/surrogate_grid.hpp"
@@ -33,12 +35,17 @@ class SurrogateCells {
   };
   struct Worker {
     FactorRow factors;
-    std::unique_ptr<HalfPeriodModel> model;  // for turns that no box knows
+    CellRow cells;
+    CellColumns columns;
+    std::vector<double> quarter_turns;
+    std::unique_ptr<HalfPeriodModel> model;  // to count turns
   };
 
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  double quarter_turns(const GridPiece& piece, std::size_t c, const std::array<double, 4>& factors,
-                       double kappa, Worker& worker) const;
+  void compute_cells(const GridPiece& piece, Worker& worker) const;
+  void count_turns(const GridPiece& piece, Worker& worker) const;
+  double quadrant_at(const GridPiece& piece, std::size_t c, Worker& worker) const;
+  Count write(const GridPiece& piece, const CellRow& cells, ChartStrip& strip);
 
   ChartRequest request_;
   bool with_verdict_ = false;

@@ -22,10 +22,6 @@ std::vector<double> coordinates_of(const Axis& axis, double low, double high) {
   return result;
 }
 
-std::size_t terms_in_x(const SurrogateBox& box) {
-  return static_cast<std::size_t>(std::max(box.coefficients[0].rows(), box.quarter_turns.rows()));
-}
-
 /// weights[k] = sum_l c(k, l) T_l, the function along a row as a sum of T_k. Small terms first.
 void contract(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, double* weights) {
   std::fill_n(weights, c.rows(), 0.0);
@@ -77,7 +73,7 @@ std::size_t SurrogateGrid::padded(const Range& columns) {
 
 void SurrogateGrid::tabulate(Box& box) const {
   const std::size_t count = box.columns.last - box.columns.first, stride = padded(box.columns);
-  const std::size_t terms = terms_in_x(*box.box);
+  const std::size_t terms = static_cast<std::size_t>(box.box->coefficients[0].rows());
   std::vector<double> t;
   for (std::size_t i = box.columns.first; i < box.columns.last; ++i) t.push_back(local(*box.box, 0, x_[i]));
   Eigen::MatrixXd columns;
@@ -111,34 +107,24 @@ void SurrogateGrid::evaluate(const GridPiece& piece, FactorRow& result) const {
   const SurrogateBox& box = *grid_box.box;
   const double t = local(box, 1, y_[piece.row]);
   const auto terms = static_cast<std::size_t>(box.coefficients[0].rows());
-  const auto turn_terms = static_cast<std::size_t>(box.quarter_turns.rows());
-  const auto degree =
-      static_cast<std::size_t>(std::max(box.coefficients[0].cols(), box.quarter_turns.cols())) - 1;
+  const auto degree = static_cast<std::size_t>(box.coefficients[0].cols()) - 1;
   auto& polynomials = result.polynomials;
   polynomials.assign(degree + 2, 1.0);
   polynomials[1] = t;
   for (std::size_t k = 2; k <= degree; ++k)
     polynomials[k] = 2.0 * t * polynomials[k - 1] - polynomials[k - 2];
-  result.weights.resize(4 * terms + turn_terms);
+  result.weights.resize(4 * terms);
   for (std::size_t f = 0; f < 4; ++f) contract(box.coefficients[f], polynomials, &result.weights[f * terms]);
 
   const std::size_t skip = piece.first_column - grid_box.columns.first;
-  detail::TensorRow row{.basis = grid_box.basis.data() + skip,
-                        .basis_stride = padded(grid_box.columns),
-                        .weights = result.weights.data(),
-                        .functions = 4,
-                        .terms = terms,
-                        .values = result.values.data(),
-                        .stride = FactorRow::stride,
-                        .columns = padded({0, piece.columns})};
-  detail::evaluate(row);
-  if (turn_terms == 0) return;
-  contract(box.quarter_turns, polynomials, &result.weights[4 * terms]);
-  row.weights += 4 * terms;
-  row.functions = 1;
-  row.terms = turn_terms;
-  row.values += 4 * FactorRow::stride;
-  detail::evaluate(row);
+  detail::evaluate({.basis = grid_box.basis.data() + skip,
+                    .basis_stride = padded(grid_box.columns),
+                    .weights = result.weights.data(),
+                    .functions = 4,
+                    .terms = terms,
+                    .values = result.values.data(),
+                    .stride = FactorRow::stride,
+                    .columns = padded({0, piece.columns})});
 }
 
 }  // namespace strutt

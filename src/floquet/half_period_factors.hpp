@@ -16,6 +16,9 @@ struct HalfPeriodFactors {
 /// As for a Monodromy with `half`. The unit of u2 and 1/u1' does not matter.
 DiscriminantGap discriminant_gap(const HalfPeriodFactors& factors);
 
+/// The quadrant 0 ... 3 of the angle of (v, y), counted from the v axis.
+int sign_quadrant(double y, double v);
+
 /// floor(q) of the angle q of (u2', u2) in quarter turns, from an estimate of q that is less than two quarter
 /// turns away: the signs of u2 and u2' tell the rest.
 double quadrant(const HalfPeriodFactors& factors, double quarter_turns);

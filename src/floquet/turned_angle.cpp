@@ -11,10 +11,11 @@ namespace {
 using std::numbers::pi;
 constexpr double kMostSteps = 4e6;
 
-/// The angle with W replaced by its values at the middle of `steps` equal parts.
+/// The angle with W replaced by its values at the middle of `steps` equal parts. Y passes zero at most once a
+/// step and only forwards, so that half turns are sign changes.
 double turned_angle(const PeriodicFunction& w, double length, double kappa, int steps) {
   const double h = length / steps;
-  double y = 0.0, v = 1.0, angle = 0.0;
+  double y = 0.0, v = 1.0, half_turns = 0.0, sign = 1.0;
   for (int j = 0; j < steps; ++j) {
     const double value = w((j + 0.5) * h);
     const double s = std::sqrt(std::abs(value)), x = s * h;
@@ -24,12 +25,15 @@ double turned_angle(const PeriodicFunction& w, double length, double kappa, int 
     const double z = s == 0.0 ? h : (value > 0.0 ? std::sin(x) : -0.5 * std::expm1(-2.0 * x)) / s;
     const double next_y = c * y + kappa * z * v;
     const double next_v = -value * z / kappa * y + c * v;
-    angle += std::atan2(next_y * v - next_v * y, next_y * y + next_v * v);
-    const double size = std::hypot(next_y, next_v);
+    if (next_y * sign < 0.0) {
+      half_turns += 1.0;
+      sign = -sign;
+    }
+    const double size = std::abs(next_y) + std::abs(next_v);
     y = next_y / size;
     v = next_v / size;
   }
-  return angle;
+  return pi * half_turns + std::atan2(sign * y, sign * v);
 }
 
 }  // namespace

@@ -169,6 +169,29 @@ TEST_CASE("cells that a surrogate cannot answer for are computed point by point"
   CHECK(edge.summary.interpolated < edge.summary.cells);
 }
 
+TEST_CASE("growth beyond the range of double does not end a surrogate",
+          "[chart][surrogate][stability_chart]") {
+  ChartRequest request = request_of(200, 200, 1e-7);
+  request.x.from = -2020.0;
+  request.x.to = -2000.0;
+  request.y.from = 0.0;
+  request.y.to = 1.0;
+  const Chart chart = compute(mathieu(0.5), request);
+  CHECK(chart.summary.interpolated > 35'000);
+  request.method = Method::propagator;
+  request.x.points = request.y.points = 3;
+  const Chart exact = compute(mathieu(0.5), request);
+  for (std::size_t cell = 0; cell < 9; ++cell) {
+    if (cell % 3 == 1 || cell / 3 == 1) continue;  // only the corners are the same points
+    const std::size_t corner = (cell < 3 ? 0 : 199 * 200) + (cell % 3 == 0 ? 0 : 199);
+    INFO("corner " << corner);
+    CHECK(std::abs(chart.layers[1][corner] - exact.layers[1][cell]) <= 1e-7 * exact.layers[1][cell]);
+    CHECK(chart.layers[0][corner] == static_cast<double>(Verdict::unstable));
+    CHECK(chart.layers[2][corner] == 0.0);
+    CHECK(std::abs(chart.layers[3][corner] / exact.layers[3][cell] - 1.0) <= 1e-6);
+  }
+}
+
 TEST_CASE("a surrogate chart is cancelled while it is built",
           "[chart][surrogate][stability_chart][threads]") {
   const std::atomic<bool> cancel{true};

@@ -17,7 +17,6 @@ namespace strutt {
 struct SurrogateOptions {
   double tolerance = 1e-9;  ///< largest Monodromy::error wanted, 1e-13 <= tolerance <= 1e-2
   int threads = 0;          ///< 0: all; the result does not depend on it
-  bool winding = false;     ///< also what the winding number needs
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -45,8 +44,6 @@ struct SurrogateBox {
   double kappa = 1.0;                           ///< of the coefficients; that of a point may differ
   std::array<Eigen::MatrixXd, 4> coefficients;  ///< of u1, u2, u1', u2': (degree_x + 1) x (degree_y + 1)
   std::array<double, 4> error{};  ///< bounds of the factors' errors anywhere in the box
-  /// The angle of (u2', kappa u2) in quarter turns, whole turns counted, to half a quarter turn; may be empty.
-  Eigen::MatrixXd quarter_turns;
 };
 
 /// A Chebyshev surrogate of the half-period factors of a Hill equation with an even coefficient over two
