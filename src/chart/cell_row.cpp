@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "chart/cell_engine.hpp"
 #include "chart/factor_error.hpp"
-#include "chart/surrogate_box.hpp"
 #include "floquet/half_period_factors.hpp"
 
 namespace strutt {
 namespace {
+
+constexpr double kUnit = 0x1p-53;
 
 /// trace M = exp(-h) 2 (u1 u2' + u1' u2) 2^(2 exponent).
 double trace_of(const HalfPeriodFactors& f, double half_damping) {
@@ -28,8 +30,13 @@ void cells_in_log_form(CellRow& row) {
     const double h = row.damping.h[c], kappa = row.kappa[c];
     HalfPeriodFactors factors{{}, row.factor_error, row.exponent};
     for (std::size_t f = 0; f < 4; ++f) factors.value[f] = row.factors[f][c];
-    const auto scaled = at_kappa(factors.value, factors.error, kappa / row.box_kappa);
-    row.error[c] = monodromy_error(scaled.value, scaled.error, {row.exponent, h, kappa, row.shifted});
+    const double ratio = kappa / row.box_kappa;
+    std::array<double, 4> value = factors.value, error = factors.error;
+    for (const auto& [f, factor] : {std::pair<std::size_t, double>{1, ratio}, {2, 1.0 / ratio}}) {
+      value[f] *= factor;
+      error[f] = error[f] * factor + 2.0 * kUnit * std::abs(value[f]);
+    }
+    row.error[c] = monodromy_error(value, error, {row.exponent, h, kappa, row.shifted});
     const auto gap = discriminant_gap(factors);
     const Margin margin = hill_margin(gap, h);
     row.margin[c] = margin.value;

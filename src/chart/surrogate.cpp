@@ -6,11 +6,12 @@
 #include <memory>
 #include <random>
 
-#include "chart/factor_error.hpp"
-#include "chart/half_period_nodes.hpp"
+#include "chart/hill_nodes.hpp"
+#include "chart/point_equation.hpp"
 #include "chart/product_table.hpp"
 #include "chart/surrogate_box.hpp"
-#include "floquet/assembly.hpp"
+#include "chart/surrogate_scope.hpp"
+#include "chart/system_nodes.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
 
@@ -21,6 +22,7 @@ constexpr double kUnit = 0x1p-53;
 // Of the tolerance, for the engine: the errors at the nodes that have the largest factors count where they
 // are small too.
 constexpr double kNodeShare = 1e-6, kCheckShare = 1e-4;
+constexpr double kSystemShare = 1e-2;  // the same for systems, whose nodes are dear
 constexpr double kLowestNodeTolerance = 1e-16, kLowestTolerance = 1e-13;
 constexpr double kShareOfCells =
     0.25;                     // the nodes of all boxes, tried ones included, as a share of the cells
@@ -47,22 +49,21 @@ std::vector<std::array<double, 2>> parameter_values(const Axis& x, const Axis& y
   return values;
 }
 
-/// The engine at scattered points, one model per thread.
-class Referee {
+/// The engine at scattered points of Hill equations, one model per thread.
+class HillReferee {
  public:
-  Referee(const Scene& scene, const Axis& x, const Axis& y, double even_phase,
-          const SurrogateOptions& options)
-      : parallel_{.threads = options.threads, .cancel = options.cancel},
-        tolerance_(std::max(kCheckShare * options.tolerance, kLowestTolerance)) {
+  HillReferee(const Scene& scene, const Axis& x, const Axis& y, const std::optional<double>& even_phase,
+              const ParallelOptions& parallel)
+      : parallel_(parallel) {
     for (int slot = 0; slot < thread_count(parallel_); ++slot)
-      models_.push_back(std::make_unique<HalfPeriodModel>(scene, x, y, even_phase));
+      models_.push_back(std::make_unique<HillModel>(scene, x, y, even_phase));
   }
 
-  /// At parameter values. False: cancelled.
-  bool sample(const std::vector<std::array<double, 2>>& values, std::vector<HalfPeriodSample>& result) {
-    result.resize(values.size());
-    const bool complete = parallel_for(values.size(), parallel_, [&](std::size_t i, int slot) {
-      result[i] = models_[static_cast<std::size_t>(slot)]->sample(values[i][0], values[i][1], tolerance_,
+  bool sample(const std::vector<std::array<double, 2>>& points, double tolerance,
+              std::vector<PropagatorSample>& result) {
+    result.assign(points.size(), {});
+    const bool complete = parallel_for(points.size(), parallel_, [&](std::size_t i, int slot) {
+      result[i] = models_[static_cast<std::size_t>(slot)]->sample(points[i][0], points[i][1], tolerance,
                                                                   parallel_.cancel);
     });
     return complete && !(parallel_.cancel != nullptr && parallel_.cancel->load());
@@ -70,9 +71,32 @@ class Referee {
 
  private:
   ParallelOptions parallel_;
-  double tolerance_;
-  std::vector<std::unique_ptr<HalfPeriodModel>> models_;
+  std::vector<std::unique_ptr<HillModel>> models_;
 };
+
+/// Where propagators come from: those of the nodes, and those to check with.
+struct Source {
+  Sampling nodes, referee;
+};
+
+Source source_of(const SurrogateScope& scope, const Scene& scene, const Axis& x, const Axis& y,
+                 const SurrogateOptions& options) {
+  const ParallelOptions parallel{.threads = options.threads, .cancel = options.cancel};
+  if (scope.is_system) {
+    const auto systems = std::make_shared<SystemNodes>(scene, x, y, scope.splits_damping, parallel);
+    const auto sample = [systems, tolerance = kSystemShare * options.tolerance](const auto& points,
+                                                                                auto& result) {
+      return systems->sample(points, tolerance, result);
+    };
+    return {sample, sample};
+  }
+  const auto nodes = std::make_shared<HillNodes>(scene, x, y, scope.even_phase, parallel);
+  const auto referee = std::make_shared<HillReferee>(scene, x, y, scope.even_phase, parallel);
+  return {[nodes, tolerance = std::max(kNodeShare * options.tolerance, kLowestNodeTolerance)](
+              const auto& points, auto& result) { return nodes->sample(points, tolerance, result); },
+          [referee, tolerance = std::max(kCheckShare * options.tolerance, kLowestTolerance)](
+              const auto& points, auto& result) { return referee->sample(points, tolerance, result); }};
+}
 
 /// Cells of the chart in a box, as if they were spread evenly (they are, in axis coordinates).
 double cells_in(const SurrogateBox& box, const SurrogateBox& whole, const Axis& x, const Axis& y) {
@@ -90,19 +114,16 @@ std::array<SurrogateBox, 2> halves(const SurrogateBox& box, std::size_t axis) {
   return {first, second};
 }
 
-/// Largest |surrogate - engine| over the factors at a point, in units of the sum of both bounds.
+/// Largest |surrogate - engine| over the entries at a point, in units of the sum of both bounds.
 double disagreement(const SurrogateBox& box, const std::array<double, 2>& at,
-                    const HalfPeriodSample& engine) {
+                    const PropagatorSample& engine) {
   if (!engine.valid) return std::numeric_limits<double>::infinity();
-  const auto value = evaluate(box, at[0], at[1]);
   const auto shift = static_cast<int>(std::clamp(engine.exponent - box.exponent, -2000L, 2000L));
-  const std::array<double, 4> units{1.0, box.kappa, 1.0 / box.kappa, 1.0};
-  double largest = 0.0;
-  for (std::size_t f = 0; f < 4; ++f) {
-    const double difference = std::abs(value[f] - std::ldexp(engine.value[f] * units[f], shift));
-    largest = std::max(largest, difference / (box.error[f] + std::ldexp(engine.error[f] * units[f], shift)));
-  }
-  return largest;
+  const auto in_unit_of_box = [shift](double v) { return std::ldexp(v, shift); };
+  const auto exact = at_kappa(engine.value, engine.error, box.kappa);
+  const Eigen::ArrayXXd difference =
+      (evaluate(box, at[0], at[1]) - exact.value.unaryExpr(in_unit_of_box)).cwiseAbs();
+  return (difference / (error_matrix(box) + exact.error.unaryExpr(in_unit_of_box)).array()).maxCoeff();
 }
 
 /// Pseudo-random points of a box; the generator's raw bits, since distributions differ between libraries.
@@ -118,11 +139,11 @@ std::vector<std::array<double, 2>> scattered(const SurrogateBox& box, std::mt199
 }
 
 /// False: cancelled.
-bool check(SurrogateBox& box, const Axis& x, const Axis& y, Referee& referee, std::mt19937_64& random,
+bool check(SurrogateBox& box, const Axis& x, const Axis& y, const Sampling& referee, std::mt19937_64& random,
            SurrogateReport& report) {
   const auto points = scattered(box, random);
-  std::vector<HalfPeriodSample> engine;
-  if (!referee.sample(parameter_values(x, y, points), engine)) return false;
+  std::vector<PropagatorSample> engine;
+  if (!referee(parameter_values(x, y, points), engine)) return false;
   double largest = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     largest = std::max(largest, disagreement(box, points[i], engine[i]));
@@ -150,11 +171,11 @@ double Surrogate::coordinate(const Axis& axis, double value) {
 
 std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y) {
   if (x.points < 2 || y.points < 2) return "an axis has only one point";
-  const auto even = even_point(scene, x, y);
-  if (!even.reason.empty()) return even.reason;
-  HalfPeriodModel model(scene, x, y, even.phase);
+  const auto scope = surrogate_scope(scene, x, y);
+  if (!scope.refusal.empty() || scope.kind != SurrogateKind::half_period) return scope.refusal;
+  HillModel model(scene, x, y, scope.even_phase);
   const Axis few_x{x.parameter, x.from, x.to, 2, x.scale}, few_y{y.parameter, y.from, y.to, 2, y.scale};
-  for (const auto property : {&CentredEquation::half_damping, &CentredEquation::kappa_square}) {
+  for (const auto property : {&PointEquation::half_damping, &PointEquation::kappa_square}) {
     const auto value = [&](double px, double py) {
       const auto point = model.at(px, py);
       return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
@@ -172,13 +193,12 @@ Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const Sur
   MonodromyOptions{.tolerance = options.tolerance}.validate();
   if (const auto reason = refusal(scene, x, y); !reason.empty())
     throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
-  even_phase_ = even_point(scene, x, y).phase;
-
-  HalfPeriodNodes nodes(scene, x, y, even_phase_, {.threads = options.threads, .cancel = options.cancel});
-  Referee referee(scene, x, y, even_phase_, options);
-  const double node_tolerance = std::max(kNodeShare * options.tolerance, kLowestNodeTolerance);
+  const auto scope = surrogate_scope(scene, x, y);
+  kind_ = scope.kind;
+  even_phase_ = scope.even_phase;
+  const Source source = source_of(scope, scene, x, y, options);
   const Sampling sampling = [&](const auto& points, auto& result) {
-    return nodes.sample(parameter_values(x, y, points), node_tolerance, result);
+    return source.nodes(parameter_values(x, y, points), result);
   };
   SurrogateBox whole;
   for (const auto& [axis, index] : {std::pair{x, std::size_t{0}}, std::pair{y, std::size_t{1}}}) {
@@ -196,11 +216,11 @@ Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const Sur
     pending.pop_front();
     const double affordable =
         std::min(cells_in(box, whole, x, y), budget - static_cast<double>(report_.nodes));
-    const auto build = build_box(box, sampling, rounding, options.tolerance, affordable);
+    const auto build = build_box(box, kind_, sampling, rounding, options.tolerance, affordable);
     report_.nodes += build.nodes;
     report_.right_hand_sides += build.right_hand_sides;
     cancelled_ = build.outcome == BoxOutcome::cancelled;
-    if (box.interpolated) cancelled_ = !check(box, x, y, referee, random, report_);
+    if (box.interpolated) cancelled_ = !check(box, x, y, source.referee, random, report_);
     if (cancelled_) return;
     const bool split = build.outcome == BoxOutcome::split_x || build.outcome == BoxOutcome::split_y;
     if (split && depth < kDeepest && boxes_.size() + pending.size() < kMostBoxes) {
@@ -225,27 +245,15 @@ std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
     return at_x >= box.low[0] && at_x <= box.high[0] && at_y >= box.low[1] && at_y <= box.high[1];
   });
   if (found == boxes_.end() || !found->interpolated) return std::nullopt;
-  const auto point = HalfPeriodModel(scene_, x_, y_, even_phase_).at(x, y);
-  if (!point) return std::nullopt;
-  const auto factors = at_kappa(evaluate(*found, at_x, at_y), found->error, point->kappa / found->kappa);
-  const auto matrix = [](const std::array<double, 4>& f) {
-    return Eigen::MatrixXd{{f[0], f[1]}, {f[2], f[3]}};
-  };
-  BoundedMatrix half{{matrix(factors.value), found->exponent}, matrix(factors.error)};
-  half.normalise();
-
-  const double h = point->half_damping;
-  const FactorScale scale(found->exponent, h, point->kappa, point->shifted);
-  Monodromy result;
-  result.undamped = period_from_half({half}, 0);
-  result.matrix = restore_damping(result.undamped, h, scale.slope);
-  result.half = std::move(half);
-  result.half_damping = h;
-  result.kappa = point->kappa;
-  result.error = scaled_error(result.matrix);
-  result.method = Method::surrogate;
-  result.outcome = result.error <= options_.tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
-  return result;
+  Scene scene = scene_;
+  parameter(scene, x_.parameter) = x;
+  parameter(scene, y_.parameter) = y;
+  const auto equation = point_equation(linear_model(scene), even_phase_);
+  if (!equation) return std::nullopt;
+  const auto scaled =
+      at_kappa(evaluate(*found, at_x, at_y), error_matrix(*found), equation->sample.kappa / found->kappa);
+  return monodromy_of(kind_, scaled, found->exponent, equation->sample, equation->angular_frequency,
+                      options_.tolerance);
 }
 
 }  // namespace strutt

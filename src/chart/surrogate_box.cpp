@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "chart/chebyshev.hpp"
-#include "chart/factor_error.hpp"
 
 namespace strutt {
 namespace {
@@ -19,19 +18,17 @@ constexpr double kLeastRounding = 64.0 * kUnit;  // of transform and sum, relati
 constexpr double kShareAtNodes = 0.4;            // of the tolerance: between nodes the factors can be smaller
 constexpr double kShareAfterCut = 0.8;           // the same, once coefficients that do not matter are dropped
 
-using Factors = std::array<double, 4>;
-
 /// Samples on the tensor grid of degrees nx, ny; node (i, j) at [i * (ny + 1) + j].
 struct Grid {
   int nx = 0, ny = 0;
-  std::vector<HalfPeriodSample> samples;
+  std::vector<PropagatorSample> samples;
 
   std::size_t index(int i, int j) const { return static_cast<std::size_t>(i * (ny + 1) + j); }
 };
 
 /// The samples of `coarse` are every second, or all, of those of the finer grid.
 bool refine(Grid& grid, int nx, int ny, const SurrogateBox& box, const Sampling& sampling, BoxBuild& build) {
-  Grid fine{nx, ny, std::vector<HalfPeriodSample>(static_cast<std::size_t>((nx + 1) * (ny + 1)))};
+  Grid fine{nx, ny, std::vector<PropagatorSample>(static_cast<std::size_t>((nx + 1) * (ny + 1)))};
   std::vector<std::array<double, 2>> points;
   std::vector<std::size_t> places;
   const int step_x = grid.nx == 0 ? 0 : nx / grid.nx, step_y = grid.ny == 0 ? 0 : ny / grid.ny;
@@ -49,7 +46,7 @@ bool refine(Grid& grid, int nx, int ny, const SurrogateBox& box, const Sampling&
       places.push_back(fine.index(i, j));
     }
   }
-  std::vector<HalfPeriodSample> found;
+  std::vector<PropagatorSample> found;
   if (!sampling(points, found)) return false;
   for (std::size_t k = 0; k < places.size(); ++k) {
     fine.samples[places[k]] = found[k];
@@ -60,12 +57,10 @@ bool refine(Grid& grid, int nx, int ny, const SurrogateBox& box, const Sampling&
   return true;
 }
 
-/// Log of the size of the factors at a sample, in the state scaled by the box's kappa.
-double log2_size(const HalfPeriodSample& sample, double kappa) {
-  const auto& f = sample.value;
-  const double largest =
-      std::max({std::abs(f[0]), std::abs(f[1]) * kappa, std::abs(f[2]) / kappa, std::abs(f[3])});
-  return std::log2(largest) + static_cast<double>(sample.exponent);
+/// Log of the size of a propagator, in the state scaled by the box's kappa.
+double log2_size(const PropagatorSample& sample, double kappa) {
+  const auto scaled = at_kappa(sample.value, sample.error, kappa);
+  return std::log2(scaled.value.cwiseAbs().maxCoeff()) + static_cast<double>(sample.exponent);
 }
 
 /// The sums of |c| over the last rows (x) and columns (y), which stand for what lies beyond.
@@ -90,26 +85,42 @@ double rounding_of(const Eigen::MatrixXd& c, const std::array<double, 2>& eta) {
          (eta[0] + 2.0 * kUnit) * slope_x + (eta[1] + 2.0 * kUnit) * slope_y;
 }
 
+/// The samples of a grid in the unit and the state of the box.
+std::vector<PointPropagator> in_unit_of(const SurrogateBox& box, const Grid& grid) {
+  std::vector<PointPropagator> result;
+  for (const auto& sample : grid.samples) {
+    auto scaled = at_kappa(sample.value, sample.error, box.kappa);
+    const auto shift = static_cast<int>(std::max(sample.exponent - box.exponent, -2000L));
+    for (auto* m : {&scaled.value, &scaled.error})
+      *m = m->unaryExpr([shift](double v) { return std::ldexp(v, shift); });
+    result.push_back(std::move(scaled));
+  }
+  return result;
+}
+
 /// Coefficients and error bounds from a full grid.
 Tail fit(SurrogateBox& box, const Grid& grid, const std::array<double, 2>& coordinate_error) {
-  const auto middle = grid.samples[grid.index(grid.nx / 2, grid.ny / 2)];
+  const auto& middle = grid.samples[grid.index(grid.nx / 2, grid.ny / 2)];
   box.kappa = middle.kappa;
   box.exponent = middle.exponent;
   for (const auto& sample : grid.samples) box.exponent = std::max(box.exponent, sample.exponent);
-  const Factors units{1.0, box.kappa, 1.0 / box.kappa, 1.0};
+  const auto samples = in_unit_of(box, grid);
   const Eigen::MatrixXd to_x = chebyshev::transform(grid.nx), to_y = chebyshev::transform(grid.ny);
   const std::array<double, 2> eta{3.0 * kUnit + 2.0 * coordinate_error[0] / (box.high[0] - box.low[0]),
                                   3.0 * kUnit + 2.0 * coordinate_error[1] / (box.high[1] - box.low[1])};
+  const Eigen::Index n = middle.value.rows();
+  box.coefficients.resize(static_cast<std::size_t>(n * n));
+  box.error.resize(box.coefficients.size());
   Tail worst;
-  for (std::size_t f = 0; f < 4; ++f) {
+  for (std::size_t f = 0; f < box.coefficients.size(); ++f) {
+    const Eigen::Index row = static_cast<Eigen::Index>(f) / n, column = static_cast<Eigen::Index>(f) % n;
     Eigen::MatrixXd values(grid.nx + 1, grid.ny + 1);
     double node_error = 0.0;
     for (int i = 0; i <= grid.nx; ++i) {
       for (int j = 0; j <= grid.ny; ++j) {
-        const auto& sample = grid.samples[grid.index(i, j)];
-        const auto shift = static_cast<int>(std::max(sample.exponent - box.exponent, -2000L));
-        values(i, j) = std::ldexp(sample.value[f] * units[f], shift);
-        node_error = std::max(node_error, std::ldexp(sample.error[f] * units[f], shift));
+        const auto& sample = samples[grid.index(i, j)];
+        values(i, j) = sample.value(row, column);
+        node_error = std::max(node_error, sample.error(row, column));
       }
     }
     box.coefficients[f] = to_x * values * to_y.transpose();
@@ -123,18 +134,15 @@ Tail fit(SurrogateBox& box, const Grid& grid, const std::array<double, 2>& coord
   return worst;
 }
 
-/// The largest scaled error of M at the nodes with these bounds of the factors.
-double worst_error(const SurrogateBox& box, const Grid& grid, const Factors& error) {
+/// The largest scaled error of M at the nodes with these bounds of the entries, in the unit of the box.
+double worst_error(const SurrogateBox& box, SurrogateKind kind, const Grid& grid,
+                   const Eigen::MatrixXd& error) {
   double worst = 0.0;
-  for (const auto& sample : grid.samples) {
-    const auto shift = static_cast<int>(std::max(sample.exponent - box.exponent, -2000L));
-    Factors value = sample.value;
-    for (double& v : value) v = std::ldexp(v, shift);
-    value[1] *= box.kappa;
-    value[2] /= box.kappa;
-    const auto factors = at_kappa(value, error, sample.kappa / box.kappa);
-    const FactorScale scale(box.exponent, sample.half_damping, sample.kappa, sample.shifted);
-    worst = std::max(worst, monodromy_error(factors.value, factors.error, scale));
+  const auto samples = in_unit_of(box, grid);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto& sample = grid.samples[k];
+    const auto scaled = at_kappa(samples[k].value, error, sample.kappa / box.kappa);
+    worst = std::max(worst, error_of_monodromy(kind, scaled, box.exponent, sample));
   }
   return worst;
 }
@@ -150,32 +158,29 @@ BoxOutcome steeper(const SurrogateBox& box, const Grid& grid) {
 
 /// Whether most nodes miss the tolerance by their own errors, whatever stands beside them: a smaller box
 /// would not help.
-bool is_hopeless(const Grid& grid, double tolerance) {
+bool is_hopeless(SurrogateKind kind, const Grid& grid, double tolerance) {
   std::size_t missed = 0;
   for (const auto& sample : grid.samples) {
-    Factors error;
-    for (std::size_t f = 0; f < 4; ++f)
-      error[f] = kNodeErrorGrowth * sample.error[f] + kLeastRounding * std::abs(sample.value[f]);
-    const auto factors = at_kappa(sample.value, error, sample.kappa);
-    const FactorScale scale(sample.exponent, sample.half_damping, sample.kappa, sample.shifted);
-    if (monodromy_error(factors.value, factors.error, scale) > kShareAtNodes * tolerance) ++missed;
+    const Eigen::MatrixXd error = kNodeErrorGrowth * sample.error + kLeastRounding * sample.value.cwiseAbs();
+    const auto scaled = at_kappa(sample.value, error, sample.kappa);
+    if (error_of_monodromy(kind, scaled, sample.exponent, sample) > kShareAtNodes * tolerance) ++missed;
   }
   return 2 * missed > grid.samples.size();
 }
 
 /// Drops the last rows and columns of all coefficients while what they add up to is below `allowed`.
-void cut(SurrogateBox& box, Factors allowed) {
+void cut(SurrogateBox& box, std::vector<double> allowed) {
   bool rows_left = true, columns_left = true;
   const auto drop = [&](bool row) {
     auto& c = box.coefficients;
     const Eigen::Index rows = c[0].rows() - (row ? 1 : 0), columns = c[0].cols() - (row ? 0 : 1);
     if (rows < 1 || columns < 1) return false;
-    Factors sum{};
-    for (std::size_t f = 0; f < 4; ++f) {
+    std::vector<double> sum(c.size());
+    for (std::size_t f = 0; f < c.size(); ++f) {
       sum[f] = row ? c[f].bottomRows(1).cwiseAbs().sum() : c[f].rightCols(1).cwiseAbs().sum();
       if (!(sum[f] <= allowed[f])) return false;
     }
-    for (std::size_t f = 0; f < 4; ++f) {
+    for (std::size_t f = 0; f < c.size(); ++f) {
       allowed[f] -= sum[f];
       box.error[f] += sum[f];
       c[f].conservativeResize(rows, columns);
@@ -190,17 +195,13 @@ void cut(SurrogateBox& box, Factors allowed) {
 
 }  // namespace
 
-PointFactors at_kappa(const Factors& value, const Factors& error, double ratio) {
-  PointFactors result{value, error};
-  result.value[1] *= ratio;
-  result.value[2] /= ratio;
-  result.error[1] = error[1] * ratio + 2.0 * kUnit * std::abs(result.value[1]);
-  result.error[2] = error[2] / ratio + 2.0 * kUnit * std::abs(result.value[2]);
-  return result;
+Eigen::MatrixXd error_matrix(const SurrogateBox& box) {
+  const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(box.error.size()))));
+  return Eigen::Map<const Eigen::MatrixXd>(box.error.data(), n, n).transpose();
 }
 
-BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array<double, 2>& coordinate_error,
-                   double tolerance, double affordable) {
+BoxBuild build_box(SurrogateBox& box, SurrogateKind kind, const Sampling& sampling,
+                   const std::array<double, 2>& coordinate_error, double tolerance, double affordable) {
   BoxBuild build;
   Grid grid;
   int nx = kFirstDegree, ny = kFirstDegree;
@@ -214,9 +215,9 @@ BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array
         std::all_of(grid.samples.begin(), grid.samples.end(), [](const auto& s) { return s.valid; });
     if (!valid) return build;
     const Tail tail = fit(box, grid, coordinate_error);
-    const double error = worst_error(box, grid, box.error);
+    const double error = worst_error(box, kind, grid, error_matrix(box));
     if (error <= kShareAtNodes * tolerance) {
-      Factors allowed = box.error;
+      std::vector<double> allowed = box.error;
       for (double& a : allowed) a *= kShareAfterCut * tolerance / error - 1.0;
       cut(box, allowed);
       box.interpolated = true;
@@ -224,10 +225,10 @@ BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array
       return build;
     }
     // Nothing but the bounds of nodes and rounding left: more nodes do not help, less range of sizes does.
-    Factors from_tail{};
-    from_tail.fill(2.0 * (tail.x + tail.y));
-    if (worst_error(box, grid, from_tail) <= 0.1 * error) {
-      if (is_hopeless(grid, tolerance)) return build;
+    const auto n = grid.samples[0].value.rows();
+    const Eigen::MatrixXd from_tail = Eigen::MatrixXd::Constant(n, n, 2.0 * (tail.x + tail.y));
+    if (worst_error(box, kind, grid, from_tail) <= 0.1 * error) {
+      if (is_hopeless(kind, grid, tolerance)) return build;
       build.outcome = steeper(box, grid);
       return build;
     }
@@ -240,7 +241,7 @@ BoxBuild build_box(SurrogateBox& box, const Sampling& sampling, const std::array
   }
 }
 
-Factors evaluate(const SurrogateBox& box, double x, double y) {
+Eigen::MatrixXd evaluate(const SurrogateBox& box, double x, double y) {
   const auto local = [&](std::size_t axis, double v) {
     const double middle = 0.5 * (box.low[axis] + box.high[axis]),
                  half = 0.5 * (box.high[axis] - box.low[axis]);
@@ -250,8 +251,12 @@ Factors evaluate(const SurrogateBox& box, double x, double y) {
   Eigen::MatrixXd in_x, in_y;
   chebyshev::polynomials({&s, 1}, static_cast<int>(box.coefficients[0].rows()) - 1, in_x);
   chebyshev::polynomials({&t, 1}, static_cast<int>(box.coefficients[0].cols()) - 1, in_y);
-  Factors result{};
-  for (std::size_t f = 0; f < 4; ++f) result[f] = (in_x * box.coefficients[f] * in_y.transpose())(0, 0);
+  Eigen::MatrixXd result = error_matrix(box);  // of the same shape
+  for (std::size_t f = 0; f < box.coefficients.size(); ++f) {
+    const auto n = static_cast<std::size_t>(result.rows());
+    result(static_cast<Eigen::Index>(f / n), static_cast<Eigen::Index>(f % n)) =
+        (in_x * box.coefficients[f] * in_y.transpose())(0, 0);
+  }
   return result;
 }
 

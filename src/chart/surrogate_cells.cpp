@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "chart/cell_engine.hpp"
+#include "chart/surrogate_box.hpp"
 #include "floquet/half_period_factors.hpp"
 #include "floquet/turned_angle.hpp"
 
@@ -23,8 +24,7 @@ SurrogateOptions options_of(const ChartRequest& request) {
 }
 
 /// A property of the equation at each cell; NaN where there is none.
-ProductTable table_of(HalfPeriodModel& model, const ChartRequest& request,
-                      double CentredEquation::*property) {
+ProductTable table_of(HillModel& model, const ChartRequest& request, double PointEquation::*property) {
   const auto value = [&](double x, double y) {
     const auto point = model.at(x, y);
     return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
@@ -69,11 +69,15 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
       surrogate_(scene, request.x, request.y, options_of(request)),
       grid_(surrogate_.boxes(), request.x, request.y) {
   workers_.resize(static_cast<std::size_t>(thread_count(parallel_)));
-  for (auto& worker : workers_) {
-    worker.model = std::make_unique<HalfPeriodModel>(scene, request.x, request.y, surrogate_.even_phase());
+  if (surrogate_.kind() == SurrogateKind::period) {
+    for (auto& worker : workers_) worker.matrix = std::make_unique<MatrixCell>(scene, request);
+    return;
   }
-  half_damping_ = table_of(*workers_[0].model, request, &CentredEquation::half_damping);
-  kappa_square_ = table_of(*workers_[0].model, request, &CentredEquation::kappa_square);
+  for (auto& worker : workers_) {
+    worker.model = std::make_unique<HillModel>(scene, request.x, request.y, surrogate_.even_phase());
+  }
+  half_damping_ = table_of(*workers_[0].model, request, &PointEquation::half_damping);
+  kappa_square_ = table_of(*workers_[0].model, request, &PointEquation::kappa_square);
 }
 
 bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<std::size_t>& rest) {
@@ -86,6 +90,7 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
   for (const auto& count : counts) {
     summary.cells += count.cells;
     summary.interpolated += count.cells;
+    summary.unresolved += count.unresolved;
     summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += count.cells;
     summary.largest_error = std::max(summary.largest_error, count.largest_error);
   }
@@ -98,8 +103,36 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
 
 SurrogateCells::Count SurrogateCells::fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker) {
   grid_.evaluate(piece, worker.factors);
+  if (worker.matrix) return fill_matrices(piece, strip, worker);
   compute_cells(piece, worker);
   return write(piece, worker.cells, strip);
+}
+
+SurrogateCells::Count SurrogateCells::fill_matrices(const GridPiece& piece, ChartStrip& strip,
+                                                    Worker& worker) {
+  const SurrogateBox& box = grid_.box(piece);
+  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
+  const double y = request_.y.value(piece.row);
+  const Eigen::MatrixXd error = error_matrix(box);
+  Eigen::MatrixXd value = error;  // of the same shape
+  Count count;
+  for (std::size_t c = 0; c < piece.columns; ++c) {
+    for (Eigen::Index i = 0, f = 0; i < value.rows(); ++i) {
+      for (Eigen::Index j = 0; j < value.cols(); ++j, ++f)
+        value(i, j) = worker.factors.values[static_cast<std::size_t>(f) * FactorRow::stride + c];
+    }
+    const auto cell = worker.matrix->assess(request_.x.value(piece.first_column + c), y, box, value, error);
+    // with more than two states the engine, too, leaves open what structure alone keeps at the edge
+    const bool open = with_verdict_ && value.rows() == 2 && cell.verdict == Verdict::unresolved;
+    if (cell.outcome != Outcome::converged || open) continue;
+    for (std::size_t l = 0; l < request_.layers.size(); ++l)
+      strip.values[l][offset + c] = layer_value(cell, request_.layers[l]);
+    done_[offset + c] = 1;
+    ++count.cells;
+    count.unresolved += with_verdict_ && cell.verdict == Verdict::unresolved ? 1 : 0;
+    count.largest_error = std::max(count.largest_error, cell.error);
+  }
+  return count;
 }
 
 void SurrogateCells::compute_cells(const GridPiece& piece, Worker& worker) const {
@@ -107,10 +140,10 @@ void SurrogateCells::compute_cells(const GridPiece& piece, Worker& worker) const
   CellRow& cells = worker.cells;
   cells.count = piece.columns;
   for (std::size_t f = 0; f < 4; ++f) cells.factors[f] = worker.factors.values.data() + f * FactorRow::stride;
-  cells.factor_error = box.error;
+  std::copy_n(box.error.begin(), 4, cells.factor_error.begin());
   cells.exponent = box.exponent;
   cells.box_kappa = box.kappa;
-  cells.shifted = surrogate_.even_phase() != 0.0;
+  cells.shifted = *surrogate_.even_phase() != 0.0;
   cells.with_growth = contains(request_.layers, Layer::growth);
   cells.with_winding = contains(request_.layers, Layer::winding);
   worker.columns.set(half_damping_, kappa_square_, piece.row, piece.first_column, piece.columns);

@@ -6,7 +6,8 @@
 
 #include "chart/cell_columns.hpp"
 #include "chart/cell_row.hpp"
-#include "chart/half_period_model.hpp"
+#include "chart/hill_model.hpp"
+#include "chart/matrix_cell.hpp"
 #include "chart/product_table.hpp"
 #include "chart/surrogate_grid.hpp"
 #include "strutt/base/parallel.hpp"
@@ -30,7 +31,7 @@ class SurrogateCells {
  private:
   /// What a piece adds to the summary.
   struct Count {
-    std::size_t cells = 0;
+    std::size_t cells = 0, unresolved = 0;
     double largest_error = 0.0;
   };
   struct Worker {
@@ -38,9 +39,11 @@ class SurrogateCells {
     CellRow cells;
     CellColumns columns;
     std::vector<double> quarter_turns;
-    std::unique_ptr<HalfPeriodModel> model;  // to count turns
+    std::unique_ptr<HillModel> model;    // kind half_period: to count turns
+    std::unique_ptr<MatrixCell> matrix;  // kind period
   };
 
+  Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   void compute_cells(const GridPiece& piece, Worker& worker) const;
   void count_turns(const GridPiece& piece, Worker& worker) const;

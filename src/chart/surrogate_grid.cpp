@@ -113,14 +113,17 @@ void SurrogateGrid::evaluate(const GridPiece& piece, FactorRow& result) const {
   polynomials[1] = t;
   for (std::size_t k = 2; k <= degree; ++k)
     polynomials[k] = 2.0 * t * polynomials[k - 1] - polynomials[k - 2];
-  result.weights.resize(4 * terms);
-  for (std::size_t f = 0; f < 4; ++f) contract(box.coefficients[f], polynomials, &result.weights[f * terms]);
+  const std::size_t functions = box.coefficients.size();
+  result.weights.resize(functions * terms);
+  result.values.resize(functions * FactorRow::stride);
+  for (std::size_t f = 0; f < functions; ++f)
+    contract(box.coefficients[f], polynomials, &result.weights[f * terms]);
 
   const std::size_t skip = piece.first_column - grid_box.columns.first;
   detail::evaluate({.basis = grid_box.basis.data() + skip,
                     .basis_stride = padded(grid_box.columns),
                     .weights = result.weights.data(),
-                    .functions = 4,
+                    .functions = functions,
                     .terms = terms,
                     .values = result.values.data(),
                     .stride = FactorRow::stride,

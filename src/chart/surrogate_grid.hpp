@@ -19,7 +19,7 @@ struct GridPiece {
 /// u2' with the kappa and the exponent of the box, then its quarter turns.
 struct FactorRow {
   static constexpr std::size_t stride = 256;
-  std::vector<double> values = std::vector<double>(4 * stride);
+  std::vector<double> values;
   std::vector<double> weights, polynomials;  // workspace
 };
 

@@ -235,14 +235,13 @@ TEST_CASE("a chart by surrogate is the one point by point, and what cannot have 
              Catch::Matchers::Contains("# method: surrogate") &&
                  Catch::Matchers::Contains(" boxes, degrees up to "));
 
-  const std::string skew =
-      "[hill]\nperiod = 1\nharmonics = [{ order = 1, cos = 0.5 }, { order = 2, sin = 1.5 }]\n";
+  const std::string square = "[hill]\nperiod = 1\nwaveform = \"square\"\namplitude = 0.5\n";
   const Result refused = strutt({"chart", "-", "--method", "surrogate", "--x", "hill.mean=0:1:3", "--y",
                                  "hill.period=1:2:3", "--layers", "growth"},
-                                {.input = skew});
+                                {.input = square});
   CHECK(refused.code == 0);
-  CHECK_THAT(refused.err, Catch::Matchers::Contains("no surrogate: the coefficient is not even"));
-  CHECK(csv_comment(refused.out, "method") == "propagator");
+  CHECK_THAT(refused.err, Catch::Matchers::Contains("no surrogate: the coefficient is not smooth"));
+  CHECK(csv_comment(refused.out, "method") == "exact");
 }
 
 }  // namespace strutt::test

@@ -102,6 +102,44 @@ TEST_CASE("a chart by surrogate over frequency and amplitude of a pendulum",
   check_against_arkode(scene, request, 1e-8);
 }
 
+TEST_CASE("a chart by surrogate of a coefficient that is not even", "[chart][surrogate][stability_chart]") {
+  const Scene skew = scene_of(
+      "[hill]\nperiod = 1\nmean = 30\ndamping = 0.2\n"
+      "harmonics = [{ order = 1, cos = 5 }, { order = 2, sin = 15 }]\n");
+  ChartRequest request = request_of(80, 40, 1e-8);
+  request.x = {.parameter = "hill.mean", .from = -20.0, .to = 100.0, .points = 80};
+  request.y = {.parameter = "hill.harmonics.1.cos", .from = 0.0, .to = 40.0, .points = 40};
+  check_against_arkode(skew, request, 1e-8);
+}
+
+TEST_CASE("a chart by surrogate of systems with two degrees of freedom",
+          "[chart][surrogate][stability_chart]") {
+  const std::string damping = GENERATE("", "damping = { mean = [[0.2, 0], [0, 0.2]] }\n",
+                                       "damping = { mean = [[0.2, 0.1], [-0.1, 0.3]] }\n");
+  const Scene scene = scene_of("[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\n" + damping +
+                               "stiffness = { mean = [[1, 0], [0, 3]], harmonics = [{ order = 1, cos = "
+                               "[[0.4, 0.3], [0.3, 0.1]] }] }\n");
+  ChartRequest request = request_of(60, 40, 1e-7);
+  request.layers = {Layer::verdict, Layer::growth, Layer::discriminant, Layer::margin};
+  request.x = {.parameter = "linear.stiffness.mean.0.0", .from = 0.5, .to = 4.0, .points = 60};
+  request.y = {.parameter = "linear.stiffness.harmonics.1.cos.0.0", .from = 0.0, .to = 1.0, .points = 40};
+  const Chart chart = compute(scene, request);
+  CHECK(chart.summary.interpolated > 1800);
+  request.method = Method::arkode;
+  request.x.points = request.y.points = 2;  // the corners
+  request.tolerance = 1e-9;
+  const Chart exact = compute(scene, request);
+  for (std::size_t cell = 0; cell < 4; ++cell) {
+    const std::size_t corner = cell / 2 * 39 * 60 + cell % 2 * 59;
+    INFO(damping << ", corner " << cell);
+    if (chart.layers[0][corner] != 3.0 && exact.layers[0][cell] != 3.0)
+      CHECK(chart.layers[0][corner] == exact.layers[0][cell]);
+    CHECK(chart.layers[1][corner] == Approx(exact.layers[1][cell]).margin(1e-3));
+    CHECK(chart.layers[2][corner] == Approx(exact.layers[2][cell]).margin(1e-6));
+    CHECK(chart.layers[3][corner] == Approx(exact.layers[3][cell]).margin(1e-3));
+  }
+}
+
 TEST_CASE("windings are counted where the angle between tongues jumps",
           "[chart][surrogate][stability_chart]") {
   ChartRequest request = request_of(300, 200, 1e-7);
@@ -136,19 +174,18 @@ TEST_CASE("a chart by surrogate has the same bits for any number of threads",
 
 TEST_CASE("a chart without a surrogate is computed point by point and says why",
           "[chart][surrogate][stability_chart]") {
-  const Scene skew =
-      scene_of("[hill]\nperiod = 1\nharmonics = [{ order = 1, cos = 0.5 }, { order = 2, sin = 1.5 }]\n");
+  const Scene square = scene_of("[hill]\nperiod = 1\nwaveform = \"square\"\namplitude = 0.5\n");
   ChartRequest request = request_of(20, 20, 1e-6);
   request.x = {.parameter = "hill.mean", .from = 0.0, .to = 1.0, .points = 20};
-  request.y = {.parameter = "hill.harmonics.1.cos", .from = 0.0, .to = 1.0, .points = 20};
-  const ChartPlan plan = plan_chart(skew, request);
-  CHECK(plan.method == Method::propagator);
-  CHECK_THAT(plan.refusal, Catch::Matchers::Contains("not even"));
-  const Chart chart = compute(skew, request);
+  request.y = {.parameter = "hill.amplitude", .from = 0.0, .to = 1.0, .points = 20};
+  const ChartPlan plan = plan_chart(square, request);
+  CHECK(plan.method == Method::exact);
+  CHECK_THAT(plan.refusal, Catch::Matchers::Contains("not smooth"));
+  const Chart chart = compute(square, request);
   CHECK(chart.summary.interpolated == 0);
   CHECK_FALSE(chart.summary.surrogate);
   request.method = Method::automatic;
-  CHECK(same(chart, compute(skew, request)));
+  CHECK(same(chart, compute(square, request)));
 }
 
 TEST_CASE("cells that a surrogate cannot answer for are computed point by point",

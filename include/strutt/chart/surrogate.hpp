@@ -34,49 +34,56 @@ struct SurrogateReport {
   long right_hand_sides = 0;
 };
 
+/// What is interpolated, n x n, of the equation of y = exp(ct/2) x in the state (y, y'/kappa).
+enum class SurrogateKind : signed char {
+  half_period,  ///< Hill, even coefficient: the propagator over half a period from the even phase
+  period,       ///< the propagator over a period from the phase 0 (n states: damping inside unless it is
+                ///< proportional)
+};
+
 /// A box of the two axis coordinates (the parameter, or its logarithm on a logarithmic axis), and on it each
-/// half-period factor f of [u1, kappa u2; u1'/kappa, u2'] = f * 2^exponent as
+/// entry of the propagator f * 2^exponent as
 ///   f(x, y) = sum_ij c_ij T_i(s) T_j(t),   s, t in [-1, 1] across the box.
 struct SurrogateBox {
   std::array<double, 2> low{}, high{};  ///< in axis coordinates
   bool interpolated = false;            ///< false: no surrogate here
   long exponent = 0;
-  double kappa = 1.0;                           ///< of the coefficients; that of a point may differ
-  std::array<Eigen::MatrixXd, 4> coefficients;  ///< of u1, u2, u1', u2': (degree_x + 1) x (degree_y + 1)
-  std::array<double, 4> error{};  ///< bounds of the factors' errors anywhere in the box
+  double kappa = 1.0;                         ///< canonical, of the coefficients; that of a point may differ
+  std::vector<Eigen::MatrixXd> coefficients;  ///< row by row: each (degree_x + 1) x (degree_y + 1)
+  std::vector<double> error;  ///< bounds of the entries' errors anywhere in the box, row by row
 };
 
-/// A Chebyshev surrogate of the half-period factors of a Hill equation with an even coefficient over two
-/// parameters.
+/// A Chebyshev surrogate of propagators over two parameters.
 ///
-/// The factors are analytic in the parameters, so their interpolants in Chebyshev points converge
+/// Propagators are analytic in the parameters, so their interpolants in Chebyshev points converge
 /// geometrically. The degree is doubled in the direction whose last coefficients are larger until the scaled
 /// error of M is below the tolerance at every node; a box whose degree would pass 64, or in which small
 /// values drown in large ones, is cut in two. The error of a box is twice the sum of the last coefficients,
-/// plus twice the error of the nodes, plus the rounding of coordinates, transform and
-/// sum. Every box is checked at pseudo-random points (fixed seed) against the engine at a tighter tolerance;
-/// one that fails is given up. Damping shifts the mean of the coefficient and scales the multipliers; the
-/// factors are those of the equation without it.
+/// plus twice the error of the nodes, plus the rounding of coordinates, transform and sum. Every box is
+/// checked at pseudo-random points (fixed seed) against the engine at a tighter tolerance; one that fails is
+/// given up. Damping that is the same for all states shifts the mean of the coefficient and scales the
+/// multipliers; what is interpolated is free of it.
 class Surrogate {
  public:
-  /// Why there can be no surrogate over these axes; empty if there can: one-degree-of-freedom model with a
-  /// smooth coefficient that is even about the same phase everywhere, both axes with two points or more. The
-  /// points of the axes matter only to what is worth a box: one with fewer cells than nodes is not.
+  /// Why there can be no surrogate over these axes; empty if there can: smooth coefficients, the same kind of
+  /// model everywhere, both axes with two points or more. The points of the axes matter only to what is worth
+  /// a box: one with fewer cells than nodes is not.
   static std::string refusal(const Scene& scene, const Axis& x, const Axis& y);
 
   /// Throws InvalidInput with the refusal if there is one, or for a tolerance out of range.
   Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options = {});
 
-  /// The monodromy at one point, nothing where there is no surrogate. `half` is about the even phase theta0;
-  /// `matrix` and `undamped` are those over [theta0, theta0 + 2 pi], similar to those from 0: trace, margin,
-  /// growth and winding are the same. `error` is that of `matrix`; outcome tolerance_not_reached where it is
-  /// above the tolerance.
+  /// The monodromy at one point, nothing where there is no surrogate. Kind half_period: `half` is about the
+  /// even phase theta0, `matrix` and `undamped` are those over [theta0, theta0 + 2 pi], similar to those from
+  /// 0: trace, margin, growth and winding are the same. `error` is that of `matrix`; outcome
+  /// tolerance_not_reached where it is above the tolerance.
   std::optional<Monodromy> monodromy(double x, double y) const;
 
   const std::vector<SurrogateBox>& boxes() const { return boxes_; }  ///< disjoint, together the chart
   const SurrogateReport& report() const { return report_; }
-  double even_phase() const { return even_phase_; }
-  bool cancelled() const { return cancelled_; }  ///< then it must not be used
+  SurrogateKind kind() const { return kind_; }
+  std::optional<double> even_phase() const { return even_phase_; }  ///< theta0, kind half_period
+  bool cancelled() const { return cancelled_; }                     ///< then it must not be used
 
   /// The coordinate of a parameter value in which the boxes are given.
   static double coordinate(const Axis& axis, double value);
@@ -85,7 +92,8 @@ class Surrogate {
   Scene scene_;
   Axis x_, y_;
   SurrogateOptions options_;
-  double even_phase_ = 0.0;
+  SurrogateKind kind_ = SurrogateKind::half_period;
+  std::optional<double> even_phase_;
   std::vector<SurrogateBox> boxes_;
   SurrogateReport report_;
   bool cancelled_ = false;
