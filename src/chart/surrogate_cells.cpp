@@ -7,6 +7,7 @@
 
 #include "chart/cell_engine.hpp"
 #include "chart/surrogate_box.hpp"
+#include "chart/trace_boxes.hpp"
 #include "floquet/half_period_factors.hpp"
 #include "floquet/turned_angle.hpp"
 
@@ -15,12 +16,23 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double kShareBeforeTrace = 0.2;
+
 bool contains(const std::vector<Layer>& layers, Layer layer) {
   return std::find(layers.begin(), layers.end(), layer) != layers.end();
 }
 
+bool only_trace(const ChartRequest& request) {
+  return std::all_of(request.layers.begin(), request.layers.end(),
+                     [](Layer layer) { return layer == Layer::discriminant || layer == Layer::outcome; });
+}
+
+/// A discriminant alone is interpolated once more, which takes its share of the error.
 SurrogateOptions options_of(const ChartRequest& request) {
-  return {.tolerance = request.tolerance, .threads = request.threads, .cancel = request.cancel};
+  const double share = only_trace(request) ? kShareBeforeTrace : 1.0;
+  return {.tolerance = std::max(share * request.tolerance, 1e-13),
+          .threads = request.threads,
+          .cancel = request.cancel};
 }
 
 /// A property of the equation at each cell; NaN where there is none.
@@ -67,7 +79,10 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
       with_verdict_(contains(request.layers, Layer::verdict)),
       parallel_{.threads = request.threads, .cancel = request.cancel},
       surrogate_(scene, request.x, request.y, options_of(request)),
-      grid_(surrogate_.boxes(), request.x, request.y) {
+      boxes_(only_trace(request) && surrogate_.kind() == SurrogateKind::half_period
+                 ? trace_boxes(surrogate_.boxes(), request.tolerance)
+                 : surrogate_.boxes()),
+      grid_(boxes_, request.x, request.y) {
   workers_.resize(static_cast<std::size_t>(thread_count(parallel_)));
   if (surrogate_.kind() == SurrogateKind::period) {
     for (auto& worker : workers_) worker.matrix = std::make_unique<MatrixCell>(scene, request);
@@ -95,6 +110,9 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
     summary.largest_error = std::max(summary.largest_error, count.largest_error);
   }
   rest.clear();
+  std::size_t filled = 0;
+  for (const auto& count : counts) filled += count.cells;
+  if (filled == done_.size()) return complete;
   for (std::size_t cell = 0; cell < done_.size(); ++cell) {
     if (done_[cell] == 0) rest.push_back(cell);
   }
@@ -104,8 +122,30 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
 SurrogateCells::Count SurrogateCells::fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker) {
   grid_.evaluate(piece, worker.factors);
   if (worker.matrix) return fill_matrices(piece, strip, worker);
+  if (grid_.box(piece).coefficients.size() == 1) return fill_traces(piece, strip, worker);
   compute_cells(piece, worker);
   return write(piece, worker.cells, strip);
+}
+
+/// trace M = exp(-h) D, which is all that is asked for.
+SurrogateCells::Count SurrogateCells::fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker) {
+  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
+  double* const traces = worker.factors.values.data();
+  if (half_damping_.largest() > 0.0) {
+    worker.columns.set(half_damping_, kappa_square_, piece.row, piece.first_column, piece.columns);
+    worker.columns.give(worker.cells);
+    for (std::size_t c = 0; c < piece.columns; ++c) traces[c] *= worker.cells.damping.decay[c];
+  }
+  for (std::size_t l = 0; l < request_.layers.size(); ++l) {
+    double* const values = strip.values[l].data() + offset;
+    if (request_.layers[l] == Layer::discriminant) {
+      std::copy_n(traces, piece.columns, values);
+    } else {
+      std::fill_n(values, piece.columns, static_cast<double>(Outcome::converged));
+    }
+  }
+  std::fill_n(done_.begin() + static_cast<std::ptrdiff_t>(offset), piece.columns, 1);
+  return {.cells = piece.columns, .largest_error = grid_.box(piece).error[0] + 8.0 * 0x1p-53};
 }
 
 SurrogateCells::Count SurrogateCells::fill_matrices(const GridPiece& piece, ChartStrip& strip,

@@ -43,6 +43,7 @@ class SurrogateCells {
     std::unique_ptr<MatrixCell> matrix;  // kind period
   };
 
+  Count fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   void compute_cells(const GridPiece& piece, Worker& worker) const;
@@ -54,6 +55,7 @@ class SurrogateCells {
   bool with_verdict_ = false;
   ParallelOptions parallel_;
   Surrogate surrogate_;
+  std::vector<SurrogateBox> boxes_;  // of the surrogate, or with the discriminant alone
   SurrogateGrid grid_;
   ProductTable half_damping_, kappa_square_;
   std::vector<Worker> workers_;

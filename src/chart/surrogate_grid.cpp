@@ -102,29 +102,34 @@ std::vector<GridPiece> SurrogateGrid::pieces(std::size_t first_row, std::size_t 
   return result;
 }
 
-void SurrogateGrid::evaluate(const GridPiece& piece, FactorRow& result) const {
-  const Box& grid_box = boxes_[piece.box];
-  const SurrogateBox& box = *grid_box.box;
-  const double t = local(box, 1, y_[piece.row]);
+void SurrogateGrid::contract_row(const GridPiece& piece, FactorRow& result) const {
+  if (result.box == piece.box && result.row == piece.row) return;
+  const SurrogateBox& box = *boxes_[piece.box].box;
   const auto terms = static_cast<std::size_t>(box.coefficients[0].rows());
+  const double t = local(box, 1, y_[piece.row]);
   const auto degree = static_cast<std::size_t>(box.coefficients[0].cols()) - 1;
   auto& polynomials = result.polynomials;
   polynomials.assign(degree + 2, 1.0);
   polynomials[1] = t;
   for (std::size_t k = 2; k <= degree; ++k)
     polynomials[k] = 2.0 * t * polynomials[k - 1] - polynomials[k - 2];
-  const std::size_t functions = box.coefficients.size();
-  result.weights.resize(functions * terms);
-  result.values.resize(functions * FactorRow::stride);
-  for (std::size_t f = 0; f < functions; ++f)
+  result.weights.resize(box.coefficients.size() * terms);
+  for (std::size_t f = 0; f < box.coefficients.size(); ++f)
     contract(box.coefficients[f], polynomials, &result.weights[f * terms]);
+  result.box = piece.box;
+  result.row = piece.row;
+}
 
-  const std::size_t skip = piece.first_column - grid_box.columns.first;
-  detail::evaluate({.basis = grid_box.basis.data() + skip,
-                    .basis_stride = padded(grid_box.columns),
+void SurrogateGrid::evaluate(const GridPiece& piece, FactorRow& result) const {
+  contract_row(piece, result);
+  const Box& box = boxes_[piece.box];
+  const std::size_t functions = box.box->coefficients.size();
+  result.values.resize(functions * FactorRow::stride);
+  detail::evaluate({.basis = box.basis.data() + (piece.first_column - box.columns.first),
+                    .basis_stride = padded(box.columns),
                     .weights = result.weights.data(),
                     .functions = functions,
-                    .terms = terms,
+                    .terms = static_cast<std::size_t>(box.box->coefficients[0].rows()),
                     .values = result.values.data(),
                     .stride = FactorRow::stride,
                     .columns = padded({0, piece.columns})});

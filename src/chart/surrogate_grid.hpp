@@ -20,7 +20,8 @@ struct GridPiece {
 struct FactorRow {
   static constexpr std::size_t stride = 256;
   std::vector<double> values;
-  std::vector<double> weights, polynomials;  // workspace
+  std::vector<double> weights, polynomials;  // workspace, kept while box and row are the same
+  std::size_t box = static_cast<std::size_t>(-1), row = 0;
 };
 
 /// The boxes of a surrogate on the tensor grid of a chart: per row and box a small matrix product with the
@@ -52,6 +53,7 @@ class SurrogateGrid {
   static std::size_t padded(const Range& columns);
   static Range indices_in(const std::vector<double>& coordinates, double low, double high, bool with_high);
   void tabulate(Box& box) const;
+  void contract_row(const GridPiece& piece, FactorRow& result) const;
 
   std::vector<double> x_, y_;  // axis coordinates
   std::vector<Box> boxes_;

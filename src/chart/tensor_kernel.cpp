@@ -22,42 +22,46 @@ struct Register {
   double lane[kWidth];
 };
 
-/// kFunctions functions at two registers of columns from `first`.
+// One statement for all registers of a block: a loop of this length is always unrolled.
+#define STRUTT_REGISTERS _Pragma("GCC unroll 8") for (std::size_t r = 0; r < kRegisters; ++r)
+#define STRUTT_FUNCTIONS _Pragma("GCC unroll 4") for (std::size_t f = 0; f < kFunctions; ++f)
+
+/// kFunctions functions at kRegisters registers of columns from `first`: eight sums, enough independent
+/// chains to hide the latency of the multiply-adds.
 template <typename Arithmetic, std::size_t kWidth, std::size_t kFunctions>
 STRUTT_INLINE void block(const TensorRow& row, std::size_t function, std::size_t first) {
-  Register<kWidth> left[kFunctions], right[kFunctions];
+  constexpr std::size_t kRegisters = 8 / kFunctions;
+  Register<kWidth> sum[kFunctions][kRegisters];
   const double* const weights = row.weights + function * row.terms;
-#pragma GCC unroll 4
-  for (std::size_t f = 0; f < kFunctions; ++f) {
-    STRUTT_LANES left[f].lane[l] = right[f].lane[l] = 0.0;
+  STRUTT_FUNCTIONS {
+    STRUTT_REGISTERS { STRUTT_LANES sum[f][r].lane[l] = 0.0; }
   }
   for (std::size_t k = row.terms; k-- > 0;) {
     const double* const basis = row.basis + k * row.basis_stride + first;
-#pragma GCC unroll 4
-    for (std::size_t f = 0; f < kFunctions; ++f) {
+    STRUTT_FUNCTIONS {
       const double weight = weights[f * row.terms + k];
-      STRUTT_LANES {
-        left[f].lane[l] = Arithmetic::multiply_add(weight, basis[l], left[f].lane[l]);
-        right[f].lane[l] = Arithmetic::multiply_add(weight, basis[kWidth + l], right[f].lane[l]);
+      STRUTT_REGISTERS {
+        STRUTT_LANES sum[f][r].lane[l] =
+            Arithmetic::multiply_add(weight, basis[r * kWidth + l], sum[f][r].lane[l]);
       }
     }
   }
-#pragma GCC unroll 4
-  for (std::size_t f = 0; f < kFunctions; ++f) {
+  STRUTT_FUNCTIONS {
     double* const values = row.values + (function + f) * row.stride + first;
-    STRUTT_LANES {
-      values[l] = left[f].lane[l];
-      values[kWidth + l] = right[f].lane[l];
-    }
+    STRUTT_REGISTERS { STRUTT_LANES values[r * kWidth + l] = sum[f][r].lane[l]; }
   }
 }
 
 template <typename Arithmetic, std::size_t kWidth>
 STRUTT_INLINE void evaluate_with(const TensorRow& row) {
-  for (std::size_t first = 0; first < row.columns; first += 2 * kWidth) {
-    std::size_t f = 0;
-    for (; f + 4 <= row.functions; f += 4) block<Arithmetic, kWidth, 4>(row, f, first);
-    for (; f < row.functions; ++f) block<Arithmetic, kWidth, 1>(row, f, first);
+  std::size_t f = 0;
+  for (; f + 4 <= row.functions; f += 4) {
+    for (std::size_t first = 0; first < row.columns; first += 2 * kWidth)
+      block<Arithmetic, kWidth, 4>(row, f, first);
+  }
+  for (; f < row.functions; ++f) {
+    for (std::size_t first = 0; first < row.columns; first += 8 * kWidth)
+      block<Arithmetic, kWidth, 1>(row, f, first);
   }
 }
 

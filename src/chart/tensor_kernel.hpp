@@ -17,7 +17,7 @@ struct TensorRow {
   std::size_t stride;
   std::size_t columns;  ///< a multiple of kTensorColumns
 };
-inline constexpr std::size_t kTensorColumns = 16;
+inline constexpr std::size_t kTensorColumns = 64;
 
 /// With the instruction set of this process; every value has the same bits whatever stands beside it.
 void evaluate(const TensorRow& row);
