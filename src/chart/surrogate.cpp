@@ -2,166 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <memory>
-#include <random>
+#include <limits>
 
-#include "chart/hill_nodes.hpp"
+#include "chart/chebyshev.hpp"
+#include "chart/hill_model.hpp"
 #include "chart/point_equation.hpp"
 #include "chart/product_table.hpp"
 #include "chart/surrogate_box.hpp"
+#include "chart/surrogate_build.hpp"
 #include "chart/surrogate_scope.hpp"
-#include "chart/system_nodes.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/base/parallel.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-// Of the tolerance, for the engine: the errors at the nodes that have the largest factors count where they
-// are small too.
-constexpr double kNodeShare = 1e-6, kCheckShare = 1e-4;
-constexpr double kSystemShare = 1e-2;  // the same for systems, whose nodes are dear
-constexpr double kLowestNodeTolerance = 1e-16, kLowestTolerance = 1e-13;
-constexpr double kShareOfCells =
-    0.25;                     // the nodes of all boxes, tried ones included, as a share of the cells
-constexpr int kChecks = 16;   // per box
-constexpr int kDeepest = 24;  // halvings from the whole chart to a box
-constexpr std::size_t kMostBoxes = 4096;
+/// T_k(t) and T_k'(t), k = 0 ... degree.
+struct Basis {
+  Eigen::VectorXd value, slope;
 
-/// The parameter value at an axis coordinate.
-double parameter_value(const Axis& axis, double coordinate) {
-  return axis.scale == AxisScale::linear ? coordinate : std::copysign(std::exp(coordinate), axis.from);
-}
-
-/// Bound of the rounding between a parameter value and its coordinate, both ways.
-double coordinate_error(const Axis& axis, double low, double high) {
-  const double largest = std::max(std::abs(low), std::abs(high));
-  return axis.scale == AxisScale::linear ? kUnit * largest : 4.0 * kUnit * (1.0 + largest);
-}
-
-/// Parameter values of points in axis coordinates.
-std::vector<std::array<double, 2>> parameter_values(const Axis& x, const Axis& y,
-                                                    const std::vector<std::array<double, 2>>& points) {
-  std::vector<std::array<double, 2>> values;
-  for (const auto& p : points) values.push_back({parameter_value(x, p[0]), parameter_value(y, p[1])});
-  return values;
-}
-
-/// The engine at scattered points of Hill equations, one model per thread.
-class HillReferee {
- public:
-  HillReferee(const Scene& scene, const Axis& x, const Axis& y, const std::optional<double>& even_phase,
-              const ParallelOptions& parallel)
-      : parallel_(parallel) {
-    for (int slot = 0; slot < thread_count(parallel_); ++slot)
-      models_.push_back(std::make_unique<HillModel>(scene, x, y, even_phase));
-  }
-
-  bool sample(const std::vector<std::array<double, 2>>& points, double tolerance,
-              std::vector<PropagatorSample>& result) {
-    result.assign(points.size(), {});
-    const bool complete = parallel_for(points.size(), parallel_, [&](std::size_t i, int slot) {
-      result[i] = models_[static_cast<std::size_t>(slot)]->sample(points[i][0], points[i][1], tolerance,
-                                                                  parallel_.cancel);
-    });
-    return complete && !(parallel_.cancel != nullptr && parallel_.cancel->load());
-  }
-
- private:
-  ParallelOptions parallel_;
-  std::vector<std::unique_ptr<HillModel>> models_;
-};
-
-/// Where propagators come from: those of the nodes, and those to check with.
-struct Source {
-  Sampling nodes, referee;
-};
-
-Source source_of(const SurrogateScope& scope, const Scene& scene, const Axis& x, const Axis& y,
-                 const SurrogateOptions& options) {
-  const ParallelOptions parallel{.threads = options.threads, .cancel = options.cancel};
-  if (scope.is_system) {
-    const auto systems = std::make_shared<SystemNodes>(scene, x, y, scope.splits_damping, parallel);
-    const auto sample = [systems, tolerance = kSystemShare * options.tolerance](const auto& points,
-                                                                                auto& result) {
-      return systems->sample(points, tolerance, result);
-    };
-    return {sample, sample};
-  }
-  const auto nodes = std::make_shared<HillNodes>(scene, x, y, scope.even_phase, parallel);
-  const auto referee = std::make_shared<HillReferee>(scene, x, y, scope.even_phase, parallel);
-  return {[nodes, tolerance = std::max(kNodeShare * options.tolerance, kLowestNodeTolerance)](
-              const auto& points, auto& result) { return nodes->sample(points, tolerance, result); },
-          [referee, tolerance = std::max(kCheckShare * options.tolerance, kLowestTolerance)](
-              const auto& points, auto& result) { return referee->sample(points, tolerance, result); }};
-}
-
-/// Cells of the chart in a box, as if they were spread evenly (they are, in axis coordinates).
-double cells_in(const SurrogateBox& box, const SurrogateBox& whole, const Axis& x, const Axis& y) {
-  const auto share = [&](std::size_t axis) {
-    return (box.high[axis] - box.low[axis]) / (whole.high[axis] - whole.low[axis]);
-  };
-  return static_cast<double>(x.points) * share(0) * static_cast<double>(y.points) * share(1);
-}
-
-std::array<SurrogateBox, 2> halves(const SurrogateBox& box, std::size_t axis) {
-  SurrogateBox first, second;
-  first.low = second.low = box.low;
-  first.high = second.high = box.high;
-  first.high[axis] = second.low[axis] = 0.5 * (box.low[axis] + box.high[axis]);
-  return {first, second};
-}
-
-/// Largest |surrogate - engine| over the entries at a point, in units of the sum of both bounds.
-double disagreement(const SurrogateBox& box, const std::array<double, 2>& at,
-                    const PropagatorSample& engine) {
-  if (!engine.valid) return std::numeric_limits<double>::infinity();
-  const auto shift = static_cast<int>(std::clamp(engine.exponent - box.exponent, -2000L, 2000L));
-  const auto in_unit_of_box = [shift](double v) { return std::ldexp(v, shift); };
-  const auto exact = at_kappa(engine.value, engine.error, box.kappa);
-  const Eigen::ArrayXXd difference =
-      (evaluate(box, at[0], at[1]) - exact.value.unaryExpr(in_unit_of_box)).cwiseAbs();
-  return (difference / (error_matrix(box) + exact.error.unaryExpr(in_unit_of_box)).array()).maxCoeff();
-}
-
-/// Pseudo-random points of a box; the generator's raw bits, since distributions differ between libraries.
-std::vector<std::array<double, 2>> scattered(const SurrogateBox& box, std::mt19937_64& random) {
-  std::vector<std::array<double, 2>> points(kChecks);
-  for (auto& point : points) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const double share = static_cast<double>(random() >> 11) * 0x1p-53;
-      point[axis] = std::lerp(box.low[axis], box.high[axis], share);
+  Basis(double t, Eigen::Index terms) : value(terms), slope(terms) {
+    value[0] = 1.0;
+    slope[0] = 0.0;
+    if (terms > 1) {
+      value[1] = t;
+      slope[1] = 1.0;
+    }
+    for (Eigen::Index k = 2; k < terms; ++k) {
+      value[k] = 2.0 * t * value[k - 1] - value[k - 2];
+      slope[k] = 2.0 * value[k - 1] + 2.0 * t * slope[k - 1] - slope[k - 2];
     }
   }
-  return points;
-}
-
-/// False: cancelled.
-bool check(SurrogateBox& box, const Axis& x, const Axis& y, const Sampling& referee, std::mt19937_64& random,
-           SurrogateReport& report) {
-  const auto points = scattered(box, random);
-  std::vector<PropagatorSample> engine;
-  if (!referee(parameter_values(x, y, points), engine)) return false;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    largest = std::max(largest, disagreement(box, points[i], engine[i]));
-    report.right_hand_sides += engine[i].right_hand_sides;
-  }
-  report.checks += points.size();
-  report.largest_check = std::max(report.largest_check, largest);
-  if (!(largest <= 1.0)) {
-    box.interpolated = false;
-    ++report.failed_checks;
-  }
-  return true;
-}
-
-struct Pending {
-  SurrogateBox box;
-  int depth;
 };
+
+double half_width(const SurrogateBox& box, std::size_t axis) {
+  return 0.5 * (box.high[axis] - box.low[axis]);
+}
+
+/// d coordinate / d parameter.
+double stretch(const Axis& axis, double value) { return axis.scale == AxisScale::linear ? 1.0 : 1.0 / value; }
 
 }  // namespace
 
@@ -186,74 +64,81 @@ std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y)
   return "";
 }
 
-Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options)
-    : scene_(scene), x_(x), y_(y), options_(options) {
+Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options) {
   x.validate("x");
   y.validate("y");
   MonodromyOptions{.tolerance = options.tolerance}.validate();
   if (const auto reason = refusal(scene, x, y); !reason.empty())
     throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
-  const auto scope = surrogate_scope(scene, x, y);
-  kind_ = scope.kind;
-  even_phase_ = scope.even_phase;
-  const Source source = source_of(scope, scene, x, y, options);
-  const Sampling sampling = [&](const auto& points, auto& result) {
-    return source.nodes(parameter_values(x, y, points), result);
-  };
-  SurrogateBox whole;
-  for (const auto& [axis, index] : {std::pair{x, std::size_t{0}}, std::pair{y, std::size_t{1}}}) {
-    const double from = coordinate(axis, axis.from), to = coordinate(axis, axis.to);
-    whole.low[index] = std::min(from, to);
-    whole.high[index] = std::max(from, to);
-  }
-  const std::array<double, 2> rounding{coordinate_error(x, whole.low[0], whole.high[0]),
-                                       coordinate_error(y, whole.low[1], whole.high[1])};
-  const double budget = kShareOfCells * cells_in(whole, whole, x, y);
-  std::mt19937_64 random(1928);  // one seed, so that the same chart is checked at the same points
-  std::deque<Pending> pending{{whole, 0}};
-  while (!pending.empty()) {
-    auto [box, depth] = std::move(pending.front());
-    pending.pop_front();
-    const double affordable =
-        std::min(cells_in(box, whole, x, y), budget - static_cast<double>(report_.nodes));
-    const auto build = build_box(box, kind_, sampling, rounding, options.tolerance, affordable);
-    report_.nodes += build.nodes;
-    report_.right_hand_sides += build.right_hand_sides;
-    cancelled_ = build.outcome == BoxOutcome::cancelled;
-    if (box.interpolated) cancelled_ = !check(box, x, y, source.referee, random, report_);
-    if (cancelled_) return;
-    const bool split = build.outcome == BoxOutcome::split_x || build.outcome == BoxOutcome::split_y;
-    if (split && depth < kDeepest && boxes_.size() + pending.size() < kMostBoxes) {
-      for (auto& half : halves(box, build.outcome == BoxOutcome::split_x ? 0 : 1))
-        pending.push_back({std::move(half), depth + 1});
-      continue;
-    }
-    if (box.interpolated) {
-      ++report_.boxes;
-      const auto degree = std::max(box.coefficients[0].rows(), box.coefficients[0].cols()) - 1;
-      report_.highest_degree = std::max(report_.highest_degree, static_cast<int>(degree));
-    } else if (build.outcome != BoxOutcome::interpolated) {
-      ++report_.boxes_left_out;
-    }
-    boxes_.push_back(std::move(box));
+  auto built = build_surrogate(scene, x, y, options);
+  data_ = std::move(built.data);
+  cancelled_ = built.cancelled;
+}
+
+Surrogate::Surrogate(SurrogateData data) : data_(std::move(data)) {
+  data_.x.validate("x");
+  data_.y.validate("y");
+  parameter(data_.scene, data_.x.parameter);
+  parameter(data_.scene, data_.y.parameter);
+  for (const auto& box : data_.boxes) {
+    if (!box.interpolated) continue;
+    const auto& c = box.coefficients;
+    const auto n = std::lround(std::sqrt(static_cast<double>(c.size())));
+    const bool same_shape = !c.empty() && std::all_of(c.begin(), c.end(), [&](const auto& m) {
+      return m.size() > 0 && m.rows() == c[0].rows() && m.cols() == c[0].cols() && m.allFinite();
+    });
+    if (!same_shape || n % 2 != 0 || static_cast<std::size_t>(n * n) != c.size() ||
+        box.error.size() != c.size())
+      throw InvalidInput("a box of the surrogate has coefficients that do not fit together");
   }
 }
 
-std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
-  const double at_x = coordinate(x_, x), at_y = coordinate(y_, y);
-  const auto found = std::find_if(boxes_.begin(), boxes_.end(), [&](const SurrogateBox& box) {
+const SurrogateBox* Surrogate::box_at(double x, double y) const {
+  const double at_x = coordinate(data_.x, x), at_y = coordinate(data_.y, y);
+  const auto found = std::find_if(data_.boxes.begin(), data_.boxes.end(), [&](const SurrogateBox& box) {
     return at_x >= box.low[0] && at_x <= box.high[0] && at_y >= box.low[1] && at_y <= box.high[1];
   });
-  if (found == boxes_.end() || !found->interpolated) return std::nullopt;
-  Scene scene = scene_;
-  parameter(scene, x_.parameter) = x;
-  parameter(scene, y_.parameter) = y;
-  const auto equation = point_equation(linear_model(scene), even_phase_);
+  return found == data_.boxes.end() || !found->interpolated ? nullptr : &*found;
+}
+
+std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
+  const SurrogateBox* const box = box_at(x, y);
+  if (box == nullptr) return std::nullopt;
+  Scene scene = data_.scene;
+  parameter(scene, data_.x.parameter) = x;
+  parameter(scene, data_.y.parameter) = y;
+  const auto equation = point_equation(linear_model(scene), data_.even_phase);
   if (!equation) return std::nullopt;
-  const auto scaled =
-      at_kappa(evaluate(*found, at_x, at_y), error_matrix(*found), equation->sample.kappa / found->kappa);
-  return monodromy_of(kind_, scaled, found->exponent, equation->sample, equation->angular_frequency,
-                      options_.tolerance);
+  const auto value = evaluate(*box, coordinate(data_.x, x), coordinate(data_.y, y));
+  const auto scaled = at_kappa(value, error_matrix(*box), equation->sample.kappa / box->kappa);
+  return monodromy_of(data_.kind, scaled, box->exponent, equation->sample, equation->angular_frequency,
+                      data_.tolerance);
+}
+
+std::optional<SurrogateGradient> Surrogate::gradient(double x, double y) const {
+  const SurrogateBox* const box = box_at(x, y);
+  if (box == nullptr) return std::nullopt;
+  const auto place = [&](std::size_t axis, double v) {
+    return (v - 0.5 * (box->low[axis] + box->high[axis])) / half_width(*box, axis);
+  };
+  const Basis s(place(0, coordinate(data_.x, x)), box->coefficients[0].rows());
+  const Basis t(place(1, coordinate(data_.y, y)), box->coefficients[0].cols());
+  const double by_x = stretch(data_.x, x) / half_width(*box, 0),
+               by_y = stretch(data_.y, y) / half_width(*box, 1);
+  SurrogateGradient result;
+  result.exponent = box->exponent;
+  result.kappa = box->kappa;
+  result.value = result.by_x = result.by_y = error_matrix(*box);  // of the same shape
+  const Eigen::Index n = result.value.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto& c = box->coefficients[static_cast<std::size_t>(i * n + j)];
+      result.value(i, j) = s.value.dot(c * t.value);
+      result.by_x(i, j) = by_x * s.slope.dot(c * t.value);
+      result.by_y(i, j) = by_y * s.value.dot(c * t.slope);
+    }
+  }
+  return result;
 }
 
 }  // namespace strutt

@@ -140,6 +140,22 @@ TEST_CASE("a chart by surrogate of systems with two degrees of freedom",
   }
 }
 
+TEST_CASE("the discriminant alone is that among other layers", "[chart][surrogate][stability_chart][simd]") {
+  const double damping = GENERATE(0.0, 0.3);
+  ChartRequest request = request_of(150, 100, 1e-8);
+  const Chart all = compute(mathieu(damping), request);
+  request.layers = {Layer::discriminant, Layer::outcome};
+  const Chart one = compute(mathieu(damping), request);
+  CHECK(one.summary.interpolated == one.summary.cells);
+  for (std::size_t cell = 0; cell < one.layers[0].size(); ++cell) {
+    INFO("cell " << cell);
+    const double size = std::max(1.0, 0.5 * std::abs(all.layers[3][cell]));
+    CHECK(std::abs(one.layers[0][cell] - all.layers[3][cell]) <=
+          (one.summary.largest_error + all.summary.largest_error) * 4.0 * size);
+    CHECK(one.layers[1][cell] == static_cast<double>(Outcome::converged));
+  }
+}
+
 TEST_CASE("windings are counted where the angle between tongues jumps",
           "[chart][surrogate][stability_chart]") {
   ChartRequest request = request_of(300, 200, 1e-7);

@@ -186,6 +186,50 @@ TEST_CASE("the error of a surrogate is above the true one on the reference table
   CHECK(interpolated >= 9 * rows / 10);
 }
 
+TEST_CASE("gradients of the discriminant are those of the equation", "[chart][surrogate]") {
+  const Axis x = axis("mathieu.delta", 0.2, 5.0, 1024, AxisScale::logarithmic),
+             y = axis("mathieu.epsilon", 0.0, 6.0);
+  const Surrogate surrogate(mathieu(), x, y, {.tolerance = 1e-10});
+  MonodromyEngine engine;
+  const auto trace = [&](double delta, double epsilon) {
+    const auto equation = mathieu_delta_epsilon(delta, epsilon);
+    return assess(equation, engine.compute(equation, {.tolerance = 1e-13, .method = Method::arkode}))
+        .discriminant;
+  };
+  for (const auto& [delta, epsilon] : {std::pair{0.3, 0.5}, {1.7, 3.0}, {4.9, 5.5}, {2.0, 0.1}}) {
+    const auto g = surrogate.gradient(delta, epsilon);
+    REQUIRE(g);
+    const double square = std::ldexp(1.0, static_cast<int>(2 * g->exponent));
+    const auto slope = [&](const Eigen::MatrixXd& d) {
+      const auto& u = g->value;
+      return 2.0 * square * (d(0, 0) * u(1, 1) + u(0, 0) * d(1, 1) + d(1, 0) * u(0, 1) + u(1, 0) * d(0, 1));
+    };
+    constexpr double h = 1e-4;  // differences are good to h^2
+    const double by_delta = (trace(delta + h, epsilon) - trace(delta - h, epsilon)) / (2.0 * h);
+    const double by_epsilon = (trace(delta, epsilon + h) - trace(delta, epsilon - h)) / (2.0 * h);
+    INFO("delta = " << delta << ", epsilon = " << epsilon);
+    CHECK(slope(g->by_x) == Approx(by_delta).epsilon(1e-6).margin(1e-6));
+    CHECK(slope(g->by_y) == Approx(by_epsilon).epsilon(1e-6).margin(1e-6));
+  }
+  CHECK_FALSE(surrogate.gradient(7.0, 1.0));
+}
+
+TEST_CASE("the matrix of a surrogate is in the units of the scene", "[chart][surrogate]") {
+  Scene scene = test::rod_scene();  // a cosine: even about the phase 0
+  const Axis x = axis("support.frequency", 4.0, 40.0), y = axis("support.amplitude", 0.0, 0.3);
+  const Surrogate surrogate(scene, x, y, {.tolerance = 1e-9});
+  REQUIRE(surrogate.even_phase() == 0.0);
+  parameter(scene, x.parameter) = 9.0;
+  parameter(scene, y.parameter) = 0.2;
+  const auto equation = std::get<HillEquation>(linear_model(scene));
+  MonodromyEngine engine;
+  const auto exact =
+      assess(equation, engine.compute(equation, {.tolerance = 1e-11, .method = Method::arkode}));
+  const auto found = assess(equation, *surrogate.monodromy(9.0, 0.2));
+  const double size = std::max(1.0, exact.matrix.cwiseAbs().maxCoeff());
+  CHECK((found.matrix - exact.matrix).cwiseAbs().maxCoeff() <= 1e-9 * size);
+}
+
 TEST_CASE("a surrogate has the same bits for any number of threads", "[chart][surrogate][threads]") {
   const Axis x = axis("mathieu.delta", -1.0, 9.0), y = axis("mathieu.epsilon", 0.0, 12.0);
   const auto build = [&](int threads) {

@@ -53,6 +53,25 @@ struct SurrogateBox {
   std::vector<double> error;  ///< bounds of the entries' errors anywhere in the box, row by row
 };
 
+/// All that a surrogate is; what is saved to a file (io/surrogate_file.hpp).
+struct SurrogateData {
+  Scene scene;
+  Axis x, y;
+  double tolerance = 1e-9;
+  SurrogateKind kind = SurrogateKind::half_period;
+  std::optional<double> even_phase;  ///< theta0, kind half_period
+  std::vector<SurrogateBox> boxes;   ///< disjoint, together the chart
+  SurrogateReport report;
+};
+
+/// What is interpolated at a point, value * 2^exponent in the state (y, y'/kappa), n x n, and its derivatives
+/// with respect to the two parameters: those of the polynomials, exact but for rounding.
+struct SurrogateGradient {
+  Eigen::MatrixXd value, by_x, by_y;
+  long exponent = 0;
+  double kappa = 1.0;
+};
+
 /// A Chebyshev surrogate of propagators over two parameters.
 ///
 /// Propagators are analytic in the parameters, so their interpolants in Chebyshev points converge
@@ -73,29 +92,33 @@ class Surrogate {
   /// Throws InvalidInput with the refusal if there is one, or for a tolerance out of range.
   Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options = {});
 
+  /// One that was built before. Throws InvalidInput if its parts do not fit together.
+  explicit Surrogate(SurrogateData data);
+
   /// The monodromy at one point, nothing where there is no surrogate. Kind half_period: `half` is about the
   /// even phase theta0, `matrix` and `undamped` are those over [theta0, theta0 + 2 pi], similar to those from
   /// 0: trace, margin, growth and winding are the same. `error` is that of `matrix`; outcome
   /// tolerance_not_reached where it is above the tolerance.
   std::optional<Monodromy> monodromy(double x, double y) const;
 
-  const std::vector<SurrogateBox>& boxes() const { return boxes_; }  ///< disjoint, together the chart
-  const SurrogateReport& report() const { return report_; }
-  SurrogateKind kind() const { return kind_; }
-  std::optional<double> even_phase() const { return even_phase_; }  ///< theta0, kind half_period
-  bool cancelled() const { return cancelled_; }                     ///< then it must not be used
+  /// Nothing where there is no surrogate. With half-period factors the discriminant and its gradient are
+  /// D = 2 (u1 u2' + u1' u2).
+  std::optional<SurrogateGradient> gradient(double x, double y) const;
+
+  const SurrogateData& data() const { return data_; }
+  const std::vector<SurrogateBox>& boxes() const { return data_.boxes; }
+  const SurrogateReport& report() const { return data_.report; }
+  SurrogateKind kind() const { return data_.kind; }
+  std::optional<double> even_phase() const { return data_.even_phase; }
+  bool cancelled() const { return cancelled_; }  ///< then it must not be used
 
   /// The coordinate of a parameter value in which the boxes are given.
   static double coordinate(const Axis& axis, double value);
 
  private:
-  Scene scene_;
-  Axis x_, y_;
-  SurrogateOptions options_;
-  SurrogateKind kind_ = SurrogateKind::half_period;
-  std::optional<double> even_phase_;
-  std::vector<SurrogateBox> boxes_;
-  SurrogateReport report_;
+  const SurrogateBox* box_at(double x, double y) const;
+
+  SurrogateData data_;
   bool cancelled_ = false;
 };
 
