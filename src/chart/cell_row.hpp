@@ -17,7 +17,7 @@ struct DampingRow {
 
 /// Cells of one row of a chart in one box: from half-period factors to layers.
 struct CellRow {
-  static constexpr std::size_t kMost = 256;
+  static constexpr std::size_t kMost = 512;
 
   std::size_t count = 0;
   std::array<const double*, 4> factors{};  ///< u1, kappa u2, u1'/kappa, u2' with the box's kappa and exponent

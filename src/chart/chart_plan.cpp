@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
 #include "strutt/chart/stability_chart.hpp"
@@ -19,11 +20,13 @@ struct CellCost {
   Method method;
   double seconds;
 };
-constexpr CellCost kCellCosts[] = {{Method::surrogate, 1.5e-7},
+constexpr CellCost kCellCosts[] = {{Method::surrogate, 2e-8},
                                    {Method::exact, 5e-6},
                                    {Method::propagator, 1.5e-5},
                                    {Method::arkode, 4e-4},
                                    {Method::cvode, 4e-4}};
+
+constexpr double kMatrixCellSeconds = 4e-6;  // surrogates of whole periods: eigenvalues cell by cell
 
 double seconds_per_cell(Method method) {
   for (const auto& cost : kCellCosts) {
@@ -83,7 +86,10 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   plan.method = interpolated || request.method != Method::surrogate ? request.method : Method::automatic;
   if (!interpolated) plan.method = method_for(model, plan.method);
   plan.threads = thread_count({.threads = request.threads});
-  plan.expected_seconds = cells * seconds_per_cell(plan.method) / plan.threads;
+  const bool matrices =
+      interpolated && surrogate_scope(scene, request.x, request.y).kind == SurrogateKind::period;
+  plan.expected_seconds =
+      cells * (matrices ? kMatrixCellSeconds : seconds_per_cell(plan.method)) / plan.threads;
   const double bytes = std::max(plan.result_bytes, plan.working_bytes);
   if (bytes > plan.budget_bytes && !request.force) {
     throw MemoryBudgetExceeded("a chart of " + std::to_string(nx) + " x " + std::to_string(ny) +

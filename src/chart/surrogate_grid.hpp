@@ -18,7 +18,7 @@ struct GridPiece {
 /// Factors at the cells of a piece, function f of cell c at values[f * stride + c]: u1, kappa u2, u1'/kappa,
 /// u2' with the kappa and the exponent of the box, then its quarter turns.
 struct FactorRow {
-  static constexpr std::size_t stride = 256;
+  static constexpr std::size_t stride = 512;
   std::vector<double> values;
   std::vector<double> weights, polynomials;  // workspace, kept while box and row are the same
   std::size_t box = static_cast<std::size_t>(-1), row = 0;

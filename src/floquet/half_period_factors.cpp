@@ -5,11 +5,6 @@
 
 namespace strutt {
 
-int sign_quadrant(double y, double v) {
-  if (y > 0.0) return v > 0.0 ? 0 : 1;
-  return v < 0.0 ? 2 : 3;
-}
-
 double quadrant(const HalfPeriodFactors& factors, double quarter_turns) {
   const double pattern = sign_quadrant(factors.value[1], factors.value[3]);
   return pattern + 4.0 * std::round((quarter_turns - (pattern + 0.5)) / 4.0);

@@ -17,7 +17,10 @@ struct HalfPeriodFactors {
 DiscriminantGap discriminant_gap(const HalfPeriodFactors& factors);
 
 /// The quadrant 0 ... 3 of the angle of (v, y), counted from the v axis.
-int sign_quadrant(double y, double v);
+inline int sign_quadrant(double y, double v) {
+  if (y > 0.0) return v > 0.0 ? 0 : 1;
+  return v < 0.0 ? 2 : 3;
+}
 
 /// floor(q) of the angle q of (u2', u2) in quarter turns, from an estimate of q that is less than two quarter
 /// turns away: the signs of u2 and u2' tell the rest.
