@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kShareBeforeTrace = 0.4;
+constexpr double kShareBeforeTrace = 0.2;
 
 bool contains(const std::vector<Layer>& layers, Layer layer) {
   return std::find(layers.begin(), layers.end(), layer) != layers.end();

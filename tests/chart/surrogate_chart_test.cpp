@@ -173,6 +173,26 @@ TEST_CASE("windings are counted where the angle between tongues jumps",
   }
 }
 
+TEST_CASE("windings are counted between cells that are tongues apart",
+          "[chart][surrogate][stability_chart]") {
+  ChartRequest request = request_of(30, 2000, 1e-6);
+  request.layers = {Layer::winding};
+  request.x.from = 0.0;
+  request.x.to = 900.0;  // two to eight quarter turns a column
+  request.y.from = 0.0;
+  request.y.to = 1.0;
+  const Chart chart = compute(mathieu(), request);
+  CHECK(chart.summary.interpolated > 50'000);
+  request.method = Method::propagator;
+  request.y.points = 2;
+  const Chart exact = compute(mathieu(), request);
+  for (std::size_t column = 0; column < 30; ++column) {
+    INFO("delta = " << request.x.value(column));
+    CHECK(std::abs(chart.layers[0][column] - exact.layers[0][column]) <= 1e-4);
+    CHECK(std::abs(chart.layers[0][1999 * 30 + column] - exact.layers[0][30 + column]) <= 1e-4);
+  }
+}
+
 TEST_CASE("a chart by surrogate has the same bits for any number of threads",
           "[chart][surrogate][stability_chart][threads]") {
   ChartRequest request = request_of(300, 250, 1e-10);
