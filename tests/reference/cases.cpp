@@ -231,6 +231,20 @@ void motion_cases(std::ostream& out) {
         }
 }
 
+// a_n, b_n; among them those that other libraries have wrong: q = 21, 600 ... 1500, 2000 (orders 69, 70), 1e6.
+void characteristic_cases(std::ostream& out) {
+    const auto write = [&](int order, double q) {
+        for (const char* kind : {"a", "b"})
+            if (order > 0 || *kind == 'a') out << kind << ',' << order << ',' << join({q});
+    };
+    for (double q : {1e-9, 1e-3, 0.1, 0.5, 1.0, 5.0, -5.0, 21.0, 25.0, 100.0, 600.0, 1024.0, 1200.0, 2000.0, 1e4, -1e4, 1e5, 1e6})
+        for (int order : {0, 1, 2, 3, 4, 5, 8, 10, 15, 20, 40, 51, 69, 70, 100}) write(order, q);
+    for (double q : {1e7, 1e8})
+        for (int order : {0, 1, 2, 10, 40, 99, 100}) write(order, q);
+    for (double q : {1.0, 1e4, 1e8}) write(1000, q);
+    for (double q : {1e4, 1e8}) write(10000, q);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -245,4 +259,5 @@ int main(int argc, char** argv) {
     write("pendulum", pendulum_cases);
     write("linear4", linear4_cases);
     write("motion", motion_cases);
+    write("characteristic", characteristic_cases);
 }

@@ -13,7 +13,7 @@ struct Kind {
     Real tolerance;
 };
 
-const std::vector<std::string> kMethods{"taylor", "fourier", "collocation"};
+const std::vector<std::string> kMethods{"taylor", "fourier", "collocation", "sturm", "fraction"};
 constexpr int kWritten = 40;
 
 // An exact zero, such as sin(2 pi), comes out as the rounding error of 100 digits. The smallest
@@ -38,7 +38,8 @@ const std::vector<Kind>& kinds() {
          "c,k1,k2,k12,p11,p12,p22,m11,m12,m13,m14,m21,m22,m23,m24,m31,m32,m33,m34,m41,m42,m43,m44", 16, linear},
         {"motion", "phi'' + damping phi' + alpha^2 (1 + r''/gravity) sin phi = 0, alpha^2 = 3 gravity / (2 length), "
                    "r = amplitude sin(frequency t), phi(0) = angle0, phi'(0) = velocity0",
-         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity", 2, nonlinear}};
+         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity", 2, nonlinear},
+        {"characteristic", "x'' + (value - 2 q cos 2t) x = 0: a_n(q), b_n(q)", "kind,order,q,value", 1, linear}};
     return list;
 }
 
