@@ -58,6 +58,7 @@ struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not g
   std::optional<std::string> separatrix_excess;
   std::optional<std::string> points;
   bool compare = false;
+  std::optional<std::string> figure;
 };
 
 struct PortraitArguments : CommonArguments {  // the scene may be missing

@@ -183,6 +183,10 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
       ->type_name("IN.csv");
   command->add_flag("--compare", arguments.compare,
                     "add T/T0 by the normal form and by Krylov's technique, each with its true error");
+  command
+      ->add_option("--figure", arguments.figure,
+                   "with --points and --compare: draw periods and errors as .png, .svg or .pdf")
+      ->type_name("FILE");
   command->footer(std::string(kPeriodExample) + kExitCodes);
   return command;
 }

@@ -1,5 +1,3 @@
-#include "strutt/free_pendulum/period.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,49 +5,18 @@
 #include <cmath>
 
 #include "commands.hpp"
+#include "orbits.hpp"
 #include "rows.hpp"
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/free_pendulum/period_formulas.hpp"
+#include "strutt/io/figure.hpp"
+#include "strutt/io/period_figure.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
 namespace {
-
-/// What an orbit is told by: the column, the flag, and the library's function.
-struct Input {
-  const char* column;
-  const char* flag;
-  const char* unit;
-  std::optional<std::string> PeriodArguments::*argument;
-  Period (*period)(double, const Eigenfrequency&);
-  Period (CheapestPeriod::*cheapest)(double, const Eigenfrequency&) const;
-  FormulaError (*formula)(PeriodMethod, double);
-};
-const std::array<Input, 3> kInputs{
-    {{"amplitude", "--amplitude", "rad", &PeriodArguments::amplitude, period_of_amplitude,
-      &CheapestPeriod::of_amplitude, formula_of_amplitude},
-     {"from_top", "--from-top", "rad", &PeriodArguments::from_top, period_of_from_top,
-      &CheapestPeriod::of_from_top, formula_of_from_top},
-     {"separatrix_excess", "--separatrix-excess", "", &PeriodArguments::separatrix_excess, period_of_excess,
-      &CheapestPeriod::of_excess, formula_of_excess}}};
-
-/// The orbits asked for: the columns as they were read, and where the two that matter stand.
-struct Orbits {
-  const Input* input = nullptr;
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows;
-  std::size_t orbit_column = 0;
-  std::optional<std::size_t> alpha_column;
-
-  Eigenfrequency alpha(const std::vector<double>& row, const Eigenfrequency& otherwise) const {
-    return alpha_column ? Eigenfrequency{row[*alpha_column], 0.0} : otherwise;
-  }
-  Period period(const std::vector<double>& row, const Eigenfrequency& alpha) const {
-    return input->period(row[orbit_column], alpha);
-  }
-};
 
 /// What is to be told about an orbit.
 struct Wanted {
@@ -61,68 +28,6 @@ struct Wanted {
 /// The formulas that `--compare` shows.
 constexpr std::array kCompared{PeriodMethod::normal_form, PeriodMethod::krylov, PeriodMethod::krylov_squared};
 
-Orbits orbit_of_flag(const Input& input, const std::string& text, const Eigenfrequency& alpha) {
-  Orbits orbits;
-  orbits.input = &input;
-  orbits.columns = {input.column};
-  orbits.rows = {{quantity_of(input.flag, text, input.unit)}};
-  try {
-    orbits.period(orbits.rows[0], alpha);
-  } catch (const InvalidInput& error) {
-    throw UsageError(std::string(input.flag) + ": " + error.what());
-  }
-  return orbits;
-}
-
-/// The kind of orbit that the columns of a file tell.
-const Input& input_of(const NumericTable& table) {
-  const Input* found = nullptr;
-  for (const Input& input : kInputs) {
-    if (std::find(table.columns.begin(), table.columns.end(), input.column) == table.columns.end()) continue;
-    if (found != nullptr) {
-      throw FileError(
-          table.file, 0, 0,
-          std::string("the columns ") + found->column + " and " + input.column + " exclude each other");
-    }
-    found = &input;
-  }
-  if (found == nullptr)
-    throw FileError(table.file, 0, 0, "wanted is a column amplitude, from_top or separatrix_excess");
-  return *found;
-}
-
-/// Checks every row before anything is written.
-Orbits orbits_of_file(const std::string& path, const Eigenfrequency& alpha) {
-  NumericTable table =
-      read_table(path, {.required = {},
-                        .optional = {"amplitude", "from_top", "separatrix_excess", "alpha"},
-                        .units = {{"amplitude", "rad"}, {"from_top", "rad"}, {"alpha", "rad/s"}}});
-  Orbits orbits;
-  orbits.input = &input_of(table);
-  orbits.orbit_column = table.column(orbits.input->column);
-  if (std::find(table.columns.begin(), table.columns.end(), "alpha") != table.columns.end())
-    orbits.alpha_column = table.column("alpha");
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    try {
-      orbits.period(table.rows[i], orbits.alpha(table.rows[i], alpha));
-    } catch (const InvalidInput& error) {
-      const bool is_alpha = orbits.alpha_column && std::string_view(error.what()).starts_with("alpha");
-      throw table.error_at(i, is_alpha ? *orbits.alpha_column : orbits.orbit_column, error.what());
-    }
-  }
-  orbits.columns = std::move(table.columns);
-  orbits.rows = std::move(table.rows);
-  return orbits;
-}
-
-Orbits orbits_of(const PeriodArguments& arguments, const Eigenfrequency& alpha) {
-  if (arguments.points) return orbits_of_file(*arguments.points, alpha);
-  for (const Input& input : kInputs) {
-    if (const auto& text = arguments.*input.argument) return orbit_of_flag(input, *text, alpha);
-  }
-  throw std::logic_error("the flags were not checked");
-}
-
 void check_flags(const PeriodArguments& arguments) {
   int given = arguments.points ? 1 : 0;
   for (const Input& input : kInputs) given += arguments.*input.argument ? 1 : 0;
@@ -131,6 +36,9 @@ void check_flags(const PeriodArguments& arguments) {
   if (arguments.points == "-" && arguments.scene == "-")
     throw UsageError("scene and points cannot both be standard input");
   if (arguments.scene.empty() && !arguments.set.empty()) throw UsageError("--set goes with --scene only");
+  if (!arguments.figure) return;
+  if (!arguments.compare || !arguments.points) throw UsageError("--figure goes with --points and --compare");
+  if (arguments.figure == arguments.output) throw UsageError("-o and --figure name the same file");
 }
 
 /// The scene, if there is one: a pendulum on which nothing but gravity acts.
@@ -211,6 +119,37 @@ ExitCode write_rows(RowWriter& writer, const Orbits& orbits, const Eigenfrequenc
   return code;
 }
 
+/// The librations among the orbits, for the figure.
+std::vector<PeriodSample> samples_of(const Orbits& orbits) {
+  std::vector<PeriodSample> samples;
+  for (const auto& row : orbits.rows) {
+    const double orbit = row[orbits.orbit_column];
+    const double amplitude = orbits.input->amplitude(orbit);
+    if (std::isnan(amplitude)) continue;
+    samples.push_back({amplitude, orbits.period(row, {}).ratio,
+                       orbits.input->formula(PeriodMethod::krylov, orbit),
+                       orbits.input->formula(PeriodMethod::krylov_squared, orbit)});
+  }
+  return samples;
+}
+
+/// Refuses what cannot be drawn before anything is written.
+void check_samples(const std::vector<PeriodSample>& samples, const std::string& file) {
+  const bool differ = std::any_of(samples.begin(), samples.end(), [&](const PeriodSample& sample) {
+    return sample.amplitude != samples.front().amplitude;
+  });
+  if (!differ)
+    throw FileError(file == "-" ? "standard input" : file, 0, 0,
+                    "--figure needs librations of two amplitudes or more");
+}
+
+/// Opens the figure before anything is computed.
+std::optional<PeriodFigure> figure_of(const PeriodArguments& arguments) {
+  if (!arguments.figure) return std::nullopt;
+  require_gnuplot(*arguments.figure);
+  return std::optional<PeriodFigure>(std::in_place, *arguments.figure);
+}
+
 void print_plan(const std::optional<SceneFile>& scene, const Orbits& orbits, const Wanted& wanted) {
   const std::vector<std::string> lines{
       fmt::format("points: {}", orbits.rows.size()),
@@ -239,9 +178,14 @@ ExitCode run(const PeriodArguments& arguments) {
     return ExitCode::done;
   }
   install_signal_handlers();
+  const auto samples = arguments.figure ? samples_of(orbits) : std::vector<PeriodSample>{};
+  if (arguments.figure) check_samples(samples, *arguments.points);
+  auto figure = figure_of(arguments);
   RowWriter writer(row_path(arguments), arguments.json, columns_of(orbits, wanted.compare),
                    provenance_of(arguments, scene, method, wanted.tolerance));
-  return write_rows(writer, orbits, alpha, wanted);
+  const ExitCode code = write_rows(writer, orbits, alpha, wanted);
+  if (figure) figure->draw(samples);
+  return code;
 }
 
 }  // namespace strutt::app

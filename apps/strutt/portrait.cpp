@@ -179,10 +179,13 @@ PortraitDescription description_of(const Job& job) {
           job.stroboscopic.cells, true};
 }
 
-StroboscopicPortrait sections_of(const Job& job) {
+StroboscopicPortrait sections_of(const Job& job, Progress& progress) {
+  StroboscopicOptions options = job.stroboscopic;
+  options.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
   const auto moving = support(job.scene->scene), driving = moment(job.scene->scene);
   auto portrait = stroboscopic_portrait(*job.pendulum, moving ? &*moving : nullptr,
-                                        driving ? &*driving : nullptr, job.starts, job.stroboscopic);
+                                        driving ? &*driving : nullptr, job.starts, options);
+  progress.clear();
   throw_if_interrupted();
   return portrait;
 }
@@ -203,18 +206,18 @@ ExitCode run(const PortraitArguments& arguments) {
     return ExitCode::done;
   }
   install_signal_handlers();
-  const Progress clock(false, "curves");
+  Progress progress(!arguments.quiet, "curves");
   PortraitOutput output(arguments, description_of(job));
   StroboscopicPortrait portrait;
   if (job.is_excited)
-    portrait = sections_of(job);
+    portrait = sections_of(job, progress);
   else
     portrait.curves = phase_portrait(job.levels);
   throw_if_interrupted();
   output.write(portrait.curves, provenance_of(arguments, job));
   if (!arguments.quiet) {
     std::string note = fmt::format("wrote {}: {} curves, {} points in {:.2g} s", output.places(),
-                                   portrait.curves.size(), point_count(portrait.curves), clock.seconds());
+                                   portrait.curves.size(), point_count(portrait.curves), progress.seconds());
     if (job.is_excited) {
       note += fmt::format("; {} of {} sections, {} curves end early, where the error bound exceeds {} rad",
                           portrait.reached, portrait.asked, portrait.ended_early,

@@ -4,9 +4,15 @@
 #include <cmath>
 
 namespace strutt {
+namespace {
+
+constexpr double kSecondOrder = 1.01;  // room for the products of errors
+
+}  // namespace
 
 BoundedMatrix BoundedMatrix::identity(int size) {
-  BoundedMatrix result{ScaledMatrix{Eigen::MatrixXd::Identity(size, size), 0}, Eigen::MatrixXd::Zero(size, size)};
+  BoundedMatrix result{ScaledMatrix{Eigen::MatrixXd::Identity(size, size), 0},
+                       Eigen::MatrixXd::Zero(size, size)};
   return result;
 }
 
@@ -17,24 +23,48 @@ void BoundedMatrix::normalise() {
   error = error.unaryExpr([shift](double x) { return std::ldexp(x, -shift); });
 }
 
+namespace {
+
+/// suffix[j]: the product of the factors after j, for all but the last.
+std::vector<ScaledMatrix> products_after(const std::vector<BoundedMatrix>& factors) {
+  std::vector<ScaledMatrix> suffix(factors.size() - 1);
+  for (std::size_t j = suffix.size(); j-- > 0;) {
+    suffix[j] = j + 1 < suffix.size() ? suffix[j + 1] * factors[j + 1].value : factors[j + 1].value;
+  }
+  return suffix;
+}
+
+}  // namespace
+
 BoundedMatrix ordered_product(const std::vector<BoundedMatrix>& factors, int size) {
   if (factors.empty()) return BoundedMatrix::identity(size);
-  const std::size_t count = factors.size();
-  std::vector<ScaledMatrix> suffix(count);  // suffix[j] = product of the factors after j
-  suffix[count - 1] = ScaledMatrix::identity(size);
-  for (std::size_t j = count - 1; j-- > 0;) suffix[j] = suffix[j + 1] * factors[j + 1].value;
+  if (factors.size() == 1) {
+    BoundedMatrix result = factors[0];
+    result.error *= kSecondOrder;
+    result.normalise();
+    return result;
+  }
+  const std::vector<ScaledMatrix> suffix = products_after(factors);
+  BoundedMatrix result{suffix[0] * factors[0].value, {}};
+  if (factors[0].error.size() == 0) return result;
 
-  ScaledMatrix prefix = ScaledMatrix::identity(size);
-  BoundedMatrix result{suffix[0] * factors[0].value, Eigen::MatrixXd::Zero(size, size)};
-  const double product_rounding = count > 1 ? size * 0x1p-53 : 0.0;
-  for (std::size_t j = 0; j < count; ++j) {
+  result.error = Eigen::MatrixXd::Zero(size, size);
+  ScaledMatrix prefix;  // the product of the factors before j > 0
+  for (std::size_t j = 0; j < factors.size(); ++j) {
     const auto& factor = factors[j];
-    const Eigen::MatrixXd own = 1.01 * factor.error + product_rounding * factor.value.mantissa.cwiseAbs();
-    const Eigen::MatrixXd carried = suffix[j].mantissa.cwiseAbs() * own * prefix.mantissa.cwiseAbs();
-    const long exponent = suffix[j].exponent + factor.value.exponent + prefix.exponent - result.value.exponent;
+    Eigen::MatrixXd carried = kSecondOrder * factor.error + size * 0x1p-53 * factor.value.mantissa.cwiseAbs();
+    long exponent = factor.value.exponent - result.value.exponent;
+    if (j < suffix.size()) {
+      carried = suffix[j].mantissa.cwiseAbs() * carried;
+      exponent += suffix[j].exponent;
+    }
+    if (j > 0) {
+      carried *= prefix.mantissa.cwiseAbs();
+      exponent += prefix.exponent;
+    }
     const int shift = static_cast<int>(std::clamp(exponent, -5000L, 5000L));
     result.error += carried.unaryExpr([shift](double x) { return std::ldexp(x, shift); });
-    prefix = factor.value * prefix;
+    if (j < suffix.size()) prefix = j > 0 ? factor.value * prefix : factor.value;
   }
   return result;
 }

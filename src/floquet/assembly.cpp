@@ -14,7 +14,7 @@ constexpr double kUnit = 0x1p-53;
 BoundedMatrix mirrored(BoundedMatrix propagator) {
   auto& m = propagator.value.mantissa;
   std::swap(m(0, 0), m(1, 1));
-  std::swap(propagator.error(0, 0), propagator.error(1, 1));
+  if (propagator.error.size() > 0) std::swap(propagator.error(0, 0), propagator.error(1, 1));
   return propagator;
 }
 
@@ -38,6 +38,10 @@ BoundedMatrix restore_damping(const BoundedMatrix& undamped, double half_damping
   const double factor = std::exp(-half_damping - exponent * std::numbers::ln2);
   BoundedMatrix result;
   result.value = {factor * (left * undamped.value.mantissa * right), undamped.value.exponent + static_cast<long>(exponent)};
+  if (undamped.error.size() == 0) {
+    result.normalise();
+    return result;
+  }
   // roundings: three a product, the slope's in both outer factors, and those of exp(-h), which grow with h
   const Eigen::MatrixXd size = factor * (left.cwiseAbs() * undamped.value.mantissa.cwiseAbs() * right.cwiseAbs());
   result.error = factor * (left.cwiseAbs() * undamped.error * right.cwiseAbs()) + (8.0 + 4.0 * half_damping) * kUnit * size;

@@ -62,7 +62,7 @@ Propagators splitting_propagators(SplittingPropagators& tables, const PeriodicFu
     result.cost += step.cost;
     result.estimate_cost += step.check_cost;
     result.truncation_share = std::max(result.truncation_share, step.truncation_share);
-    result.checks.push_back({std::move(step.check), Eigen::MatrixXd::Zero(2, 2)});
+    result.checks.push_back({std::move(step.check), {}});
     result.factors.push_back(std::move(step.matrix));
   }
   return result;

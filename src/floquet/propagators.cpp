@@ -20,8 +20,7 @@ void Propagators::append(Propagation&& step) {
   if (outcome == Outcome::converged) outcome = step.outcome;
   cost += step.cost;
   estimate_cost += step.estimate_cost;
-  checks.push_back(
-      {std::move(step.check), Eigen::MatrixXd::Zero(step.matrix.error.rows(), step.matrix.error.cols())});
+  checks.push_back({std::move(step.check), {}});
   factors.push_back(std::move(step.matrix));
 }
 

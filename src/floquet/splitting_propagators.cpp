@@ -57,7 +57,7 @@ SplittingPropagation SplittingPropagators::propagate(const PeriodicFunction& w, 
   SplittingPropagation result;
   const auto plan = plan_hill_steps(w, piece.from, piece.to, tolerance);
   if (plan.steps == 0) return result;
-  const Expansion terms = expansion(w);
+  Expansion terms = expansion(w);
   const double mean[] = {w.mean()};
   HillBatch batch{mean, {}};
   for (const double& weight : terms.weights) batch.weights.emplace_back(&weight, 1);
@@ -72,9 +72,11 @@ SplittingPropagation SplittingPropagators::propagate(const PeriodicFunction& w, 
       Eigen::MatrixXd::Constant(2, 2, size * (full.rounding() + coefficient_error * radians));
   result.matrix.normalise();
   result.cost = {.steps = plan.steps, .rejections = 0, .right_hand_sides = full.evaluations()};
-  result.check = result.matrix.value;
-  if (!with_check) return result;
-  const auto& half = table({plan.order, plan.steps / 2, piece.from, piece.to, terms.names});
+  if (!with_check) {
+    result.check = result.matrix.value;
+    return result;
+  }
+  const auto& half = table({plan.order, plan.steps / 2, piece.from, piece.to, std::move(terms.names)});
   half.propagate(batch, lanes);
   result.check = scaled(lanes, kappa);
   result.check.normalise();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <numbers>
 
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
@@ -23,6 +25,23 @@ double section_period(const PhysicalPendulum& pendulum, const Excitation* suppor
   if (moment != nullptr && !moment->function.is_constant()) return 2.0 * pi / moment->frequency;
   return pendulum.period();
 }
+
+/// Counts what is done and tells it, one thread at a time.
+class Tally {
+ public:
+  Tally(const StroboscopicOptions& options, std::size_t total) : options_(options), total_(total) {}
+
+  void add_one() {
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex_);
+    options_.progress(++done_, total_);
+  }
+
+ private:
+  const StroboscopicOptions& options_;
+  std::size_t done_ = 0, total_;
+  std::mutex mutex_;
+};
 
 /// Into [-half, half).
 double wrapped(double angle, double half) {
@@ -97,9 +116,12 @@ StroboscopicPortrait stroboscopic_portrait(const PhysicalPendulum& pendulum, con
   for (int n = 1; n <= options.sections; ++n) strobe.times.push_back(n * portrait.period);
 
   std::vector<Followed> results(starts.size());
-  const bool all =
-      parallel_for(starts.size(), {.threads = options.threads, .cancel = options.cancel},
-                   [&](std::size_t index, int) { results[index] = follow(strobe, starts[index]); });
+  Tally tally(options, starts.size());
+  const bool all = parallel_for(starts.size(), {.threads = options.threads, .cancel = options.cancel},
+                                [&](std::size_t index, int) {
+                                  results[index] = follow(strobe, starts[index]);
+                                  tally.add_one();
+                                });
   portrait.cancelled = !all || (options.cancel != nullptr && options.cancel->load());
   const auto sections = static_cast<std::size_t>(options.sections);
   for (auto& result : results) {

@@ -3,8 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "io/scratch.hpp"
 #include "support/program.hpp"
 
 namespace strutt::test {
@@ -128,6 +130,23 @@ TEST_CASE("period --compare shows every formula with its true error", "[apps][pe
   CHECK(json.at("rows").at(0).at("krylov").is_null());
 }
 
+TEST_CASE("period --compare --figure draws librations told in any way", "[apps][period][figure]") {
+  const ScratchDirectory scratch;
+  for (const char* table : {"amplitude\n0\n1\n3.141592653589793\n", "from_top\n0\n1e-300\n1\n",
+                            "separatrix_excess\n3\n-4\n-1\n0\n"}) {
+    const Words flags{"--points", "-", "--compare", "--quiet"};
+    Words drawing = flags;
+    drawing.insert(drawing.end(), {"--figure", (scratch / "a.svg").string()});
+    const Result result = period(drawing, {.input = table});
+    INFO(table << result.err);
+    CHECK(result.code == 0);
+    CHECK(result.out == period(flags, {.input = table}).out);  // the data are the same
+    CHECK(content_of(scratch / "a.svg").find("(31) and (22)") != std::string::npos);
+    std::filesystem::remove(scratch / "a.svg");
+  }
+  CHECK(scratch.names().empty());
+}
+
 TEST_CASE("the tolerance of a period picks the cheapest formula that is good enough", "[apps][period]") {
   const auto chosen = [](const char* amplitude, const char* tolerance, const char* method = "auto") {
     const Words row =
@@ -164,6 +183,16 @@ TEST_CASE("periods refuse what has none", "[apps][period][error]") {
   fails({"--amplitude", "1", "--tolerance", "1e-16"}, 2, "5e-16");
   fails({"--amplitude", "1", "--set", "pendulum.length=1"}, 2, "--scene");
   fails({"--amplitude", "1", "--method", "cvode"}, 2, "available are auto, exact");
+  const std::string two = "amplitude\n1\n2\n";
+  fails({"--points", "-", "--figure", "a.png"}, 2, "--compare", {.input = two});
+  fails({"--amplitude", "1", "--compare", "--figure", "a.png"}, 2, "--points");
+  fails({"--points", "-", "--compare", "--figure", "a.gif"}, 2, ".png", {.input = two});
+  fails({"--points", "-", "--compare", "--figure", "a.svg", "-o", "a.svg"}, 2, "same file", {.input = two});
+  fails({"--points", "-", "--compare", "--figure", "/none/a.png"}, 5, "/none/a.png", {.input = two});
+  fails({"--points", "-", "--compare", "--figure", "a.png"}, 3, "two amplitudes",
+        {.input = "amplitude\n1\n"});
+  fails({"--points", "-", "--compare", "--figure", "a.png"}, 3, "two amplitudes",
+        {.input = "separatrix_excess\n1\n2\n"});
   fails({"--points", "-"}, 3, ":3", {.input = "amplitude\n1\n4\n"});
   fails({"--points", "-"}, 3, "exclude each other", {.input = "amplitude,from_top\n1,1\n"});
   fails({"--points", "-"}, 3, "wanted is a column", {.input = "alpha\n1\n"});

@@ -184,3 +184,16 @@ TEST_CASE("a portrait of sections refuses misuse", "[free_pendulum][portrait][mi
   CHECK_THROWS_AS(portrait_starts(0.0, 1, 1), InvalidInput);
   CHECK_THROWS_AS(portrait_starts(1.0, 1, 0), InvalidInput);
 }
+
+TEST_CASE("the progress of a portrait counts every curve once, up to all of them",
+          "[free_pendulum][portrait]") {
+  const auto starts = portrait_starts(kRod.alpha(), 1, 9);
+  std::vector<std::size_t> told;
+  StroboscopicOptions options{.sections = 2, .threads = GENERATE(1, 3)};
+  options.progress = [&](std::size_t done, std::size_t total) {
+    CHECK(total == 9);
+    told.push_back(done);
+  };
+  stroboscopic_portrait(kRod, &kSupport, nullptr, starts, options);
+  CHECK(told == std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8, 9});
+}

@@ -18,21 +18,28 @@ namespace {
 struct ReferenceMotion {
   double length, gravity, amplitude, frequency, damping, angle0, velocity0, t;
   long double angle, velocity;
+  double sensitivity;  // s = max(1, largest |entry| of d(phi, phi'/alpha)/d(phi0, phi0'/alpha)); 0: not known
 };
 
-std::vector<ReferenceMotion> reference_motions() {
-  std::ifstream file(STRUTT_SOURCE_DIR "/tests/reference/motion.csv");
+std::vector<ReferenceMotion> read_motions(const std::string& name) {
+  std::ifstream file(STRUTT_SOURCE_DIR "/tests/reference/" + name);
   std::vector<ReferenceMotion> rows;
   std::string line;
   while (std::getline(file, line)) {
     if (line.empty() || line[0] == '#' || line[0] == 'l') continue;
-    std::array<std::string, 10> cells;
+    std::array<std::string, 11> cells;
     std::istringstream stream(line);
     for (auto& cell : cells) std::getline(stream, cell, ',');
     const auto real = [&](std::size_t i) { return std::strtod(cells[i].c_str(), nullptr); };
     rows.push_back({real(0), real(1), real(2), real(3), real(4), real(5), real(6), real(7),
-                    std::strtold(cells[8].c_str(), nullptr), std::strtold(cells[9].c_str(), nullptr)});
+                    std::strtold(cells[8].c_str(), nullptr), std::strtold(cells[9].c_str(), nullptr),
+                    real(10)});
   }
+  return rows;
+}
+
+std::vector<ReferenceMotion> reference_motions() {
+  auto rows = read_motions("motion.csv");
   REQUIRE(rows.size() == 40);
   return rows;
 }
@@ -75,6 +82,25 @@ TEST_CASE("the bound of a motion is never below the true error", "[integrate][mo
   INFO("tolerance " << tolerance << ": converged " << converged << ", largest error/bound " << worst);
   CHECK(worst > 1e-4);
   if (method == Method::automatic) CHECK(converged >= (tolerance >= 1e-9 ? 37 : 15));
+}
+
+TEST_CASE("an excited motion keeps ten digits over fifty periods", "[integrate][motion][reference]") {
+  const auto method = GENERATE(Method::arkode, Method::cvode);
+  const auto rows = read_motions("long_motion.csv");
+  REQUIRE(rows.size() == 5);
+  for (const auto& row : rows) {
+    const auto rod = PhysicalPendulum::uniform_rod(1.0, row.length, row.gravity, row.damping);
+    const auto support = sinusoidal_support(row.amplitude, row.frequency);
+    const auto motion = integrate_motion(rod, &support, nullptr, {row.angle0, row.velocity0},
+                                         std::array{row.t}, {.tolerance = 1e-13, .method = method});
+    const MotionPoint& point = motion.points.at(0);
+    const double error = motion_error(point, row.angle);
+    INFO(to_string(method) << ", " << row.frequency << " rad/s: error " << error << ", bound " << point.error
+                           << ", s " << row.sensitivity);
+    REQUIRE(row.sensitivity >= 1.0);
+    CHECK(error <= 1e-10 * row.sensitivity);
+    CHECK(error <= point.error);
+  }
 }
 
 TEST_CASE("many times in one call keep the bound, in any order", "[integrate][motion]") {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 #include <random>
 
 namespace {
@@ -245,6 +246,20 @@ void characteristic_cases(std::ostream& out) {
     for (double q : {1e4, 1e8}) write(10000, q);
 }
 
+// Fifty periods of the excitation: stable oscillations, the rod held upright, tumbling.
+void long_motion_cases(std::ostream& out) {
+    for (const std::vector<double>& start : std::vector<std::vector<double>>{
+             {1, 9.81, 0.05, 7.672, 0.1, 0.1, 0},
+             {0.5, 9.81, 0.02, 12, 0, 0.5, -1},
+             {1, 9.81, 0.2, 40, 0.5, 3, 0},
+             {1, 9.81, 0.1, 25, 0, 1, 3},
+             {1, 9.81, 0.1, 14, 0.1, 2.5, 1}}) {
+        std::vector<double> row = start;
+        row.push_back(100 * std::numbers::pi / start[3]);
+        out << join(row);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -260,4 +275,5 @@ int main(int argc, char** argv) {
     write("linear4", linear4_cases);
     write("motion", motion_cases);
     write("characteristic", characteristic_cases);
+    write("long_motion", long_motion_cases);
 }

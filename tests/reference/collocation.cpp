@@ -160,6 +160,14 @@ void motion_step(const Motion& m, const Gauss& g, const Real& start, const Real&
     }
 }
 
+Real longest_step(const Motion& m) { return std::min(Real(0.1), Real(2 / m.frequency)); }
+
+void advance(const Motion& m, const Gauss& gauss, const Real& begin, Real& angle, Real& velocity) {
+    const int steps = 1 + int((m.time - begin) / longest_step(m));
+    const Real h = (m.time - begin) / steps;
+    for (int i = 0; i < steps; ++i) motion_step(m, gauss, begin + i * h, h, angle, velocity);
+}
+
 // Rows of one motion differ only in t and come with t rising, so a row goes on from the one before.
 std::vector<Real> rod(const Row& row) {
     static const Gauss gauss(32);
@@ -173,11 +181,15 @@ std::vector<Real> rod(const Row& row) {
         angle = m.angle;
         velocity = m.velocity;
     }
-    const Real longest = std::min(Real(0.1), Real(2 / m.frequency));
-    const int steps = 1 + int((m.time - time) / longest);
-    const Real h = (m.time - time) / steps;
-    for (int i = 0; i < steps; ++i) motion_step(m, gauss, time + i * h, h, angle, velocity);
+    advance(m, gauss, time, angle, velocity);
     time = m.time;
+    return {angle, velocity};
+}
+
+std::vector<Real> rod_from_start(const Motion& m) {
+    static const Gauss gauss(32);
+    Real angle = m.angle, velocity = m.velocity;
+    advance(m, gauss, 0, angle, velocity);
     return {angle, velocity};
 }
 
@@ -191,6 +203,7 @@ int main(int argc, char** argv) try {
     run("pendulum", [](const Row& row) { return monodromy(pendulum(row)); });
     run("linear4", [](const Row& row) { return monodromy(linear4(row)); });
     run("motion", [](const Row& row) { return rod(row); });
+    run("long_motion", [](const Row& row) { return with_sensitivity(motion(row), rod_from_start); });
 } catch (const std::exception& error) {
     std::cerr << "collocation: " << error.what() << '\n';
     return 1;

@@ -112,6 +112,25 @@ inline Motion motion(const Row& row) {  // length,gravity,amplitude,frequency,da
     return {stiffness, -stiffness * v[2] * v[3] * v[3] / v[1], v[3], v[4], v[5], v[6], v[7]};
 }
 
+// Angle and velocity of a motion, then the largest |entry| of d(phi, phi'/alpha)/d(phi0, phi0'/alpha), at least 1, by
+// differences: the step leaves 25 digits of it.
+template <typename Solve>
+std::vector<Real> with_sensitivity(const Motion& m, const Solve& solve) {
+    const Real step("1e-25"), alpha = sqrt(m.stiffness);
+    std::vector<Real> result = solve(m);
+    Motion turned = m, pushed = m;
+    turned.angle += step;
+    pushed.velocity += alpha * step;
+    Real largest = 1;
+    for (const Motion& neighbour : {turned, pushed}) {
+        const std::vector<Real> state = solve(neighbour);
+        largest = std::max({largest, Real(abs(state[0] - result[0]) / step),
+                            Real(abs(state[1] - result[1]) / (alpha * step))});
+    }
+    result.push_back(largest);
+    return result;
+}
+
 // The numbers recorded for a monodromy matrix: its entries by rows and, for one degree
 // of freedom, the trace and the stability margin 1 - |D| / (2 cosh(cT/2)), D = exp(cT/2) trace.
 inline std::vector<Real> record(const Matrix& m, const Real& damping, const Real& period) {

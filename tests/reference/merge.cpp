@@ -39,6 +39,9 @@ const std::vector<Kind>& kinds() {
         {"motion", "phi'' + damping phi' + alpha^2 (1 + r''/gravity) sin phi = 0, alpha^2 = 3 gravity / (2 length), "
                    "r = amplitude sin(frequency t), phi(0) = angle0, phi'(0) = velocity0",
          "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity", 2, nonlinear},
+        {"long_motion", "the equation of motion.csv; s is the largest |entry| of "
+                        "d(phi, phi'/alpha)/d(phi0, phi0'/alpha), at least 1",
+         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity,s", 3, nonlinear},
         {"characteristic", "x'' + (value - 2 q cos 2t) x = 0: a_n(q), b_n(q)", "kind,order,q,value", 1, linear}};
     return list;
 }

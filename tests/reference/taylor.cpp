@@ -164,6 +164,7 @@ int main(int argc, char** argv) try {
     run("linear4", [](const Row& row) { return monodromy(linear4(row)); });
     run("square", [](const Row& row) { return square_wave(square(row)); });
     run("motion", [](const Row& row) { return rod(motion(row)); });
+    run("long_motion", [](const Row& row) { return with_sensitivity(motion(row), rod); });
 } catch (const std::exception& error) {
     std::cerr << "taylor: " << error.what() << '\n';
     return 1;

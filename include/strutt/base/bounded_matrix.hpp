@@ -8,7 +8,7 @@
 namespace strutt {
 
 /// A scaled matrix with an entrywise bound of its error, in units of the mantissa:
-/// |true - value| <= error * 2^value.exponent, entry by entry.
+/// |true - value| <= error * 2^value.exponent, entry by entry. An empty error says that none is kept.
 struct BoundedMatrix {
   ScaledMatrix value;
   Eigen::MatrixXd error;
@@ -23,7 +23,7 @@ struct BoundedMatrix {
 /// The error of factor j is carried as |S| error_j |P|, with P the product of the factors before it and S of those
 /// after it: one overestimate per factor instead of one per multiplication, so long products of rotations
 /// keep a bound that grows with their number only. Second-order terms and the rounding of the products are included.
-/// An empty list gives the identity of `size`.
+/// An empty list gives the identity of `size`. Without an error in the first factor the product has none.
 BoundedMatrix ordered_product(const std::vector<BoundedMatrix>& factors, int size);
 
 }  // namespace strutt

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct StroboscopicOptions {
   Method method = Method::automatic;  ///< automatic (= arkode), arkode, cvode
   int threads = 0;                    ///< 0: all
   const std::atomic<bool>* cancel = nullptr;
+  /// Told after every curve how many of all are done; on any thread, but never on two at a time.
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
 
   void validate() const;  ///< throws InvalidInput
 };
