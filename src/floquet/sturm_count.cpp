@@ -47,6 +47,52 @@ struct Elimination {
   }
 };
 
+/// Pivots p and the sum of p'/p, the logarithmic derivative of the determinant by the point.
+struct Derivation {
+  std::array<Pair, kPairs> point, inverse, share, sum{};  // 1/p, p'/p and its sum
+  std::array<Pair, kPairs> fall;                          // what the eigenvector has fallen by in the tail
+  std::array<PairCount, kPairs> negative{}, active;
+
+  Derivation(const SturmPoints& points, double diagonal) {
+    std::memcpy(point.data(), points.data(), sizeof(points));
+    for (std::size_t k = 0; k < kPairs; ++k) {
+      fall[k] = Pair{1.0, 1.0};
+      active[k] = PairCount{-1, -1};
+      add(k, diagonal - point[k], Pair{-1.0, -1.0});
+    }
+  }
+  void step(double diagonal, double coupling) {
+    for (std::size_t k = 0; k < kPairs; ++k) advance(k, diagonal, coupling);
+  }
+  /// A row of the tail. From where the diagonal is 2 q above the point on, the eigenvector falls by (d - x -
+  /// q)/q or more; the eigenvalue feels the square of what is cut off. Returns whether any lane needs a
+  /// further row.
+  bool tail_step(double diagonal, double coupling, double q) {
+    PairCount any{};
+    for (std::size_t k = 0; k < kPairs; ++k) {
+      const Pair sum_before = sum[k], above = diagonal - point[k];
+      advance(k, diagonal, coupling);
+      sum[k] = active[k] ? sum[k] : sum_before;
+      fall[k] = above >= 2.0 * q ? fall[k] * ((above - q) * (1.0 / q)) : fall[k];
+      active[k] &= fall[k] < 0x1p26;
+      any |= active[k];
+    }
+    return (any[0] | any[1]) != 0;
+  }
+
+ private:
+  void advance(std::size_t k, double diagonal, double coupling) {
+    const Pair ratio = coupling * inverse[k];
+    add(k, (diagonal - point[k]) - ratio, ratio * share[k] - 1.0);
+  }
+  void add(std::size_t k, Pair pivot, Pair derivative) {
+    negative[k] -= pivot < 0.0;
+    inverse[k] = 1.0 / pivot;
+    share[k] = derivative * inverse[k];
+    sum[k] += share[k];
+  }
+};
+
 }  // namespace
 
 double MathieuMatrix::perturbation() const {
@@ -81,6 +127,23 @@ SturmCounts sturm_counts(const MathieuMatrix& matrix, const SturmPoints& points)
   SturmCounts counts;
   std::memcpy(counts.data(), rows.negative.data(), sizeof(counts));
   return counts;
+}
+
+NewtonSteps newton_steps(const MathieuMatrix& matrix, const SturmPoints& points) {
+  const double smallest = *std::min_element(points.begin(), points.end());
+  const double q = matrix.q, coupling = q * q;
+  double frequency = matrix.lowest;
+  Derivation rows(points, frequency * frequency + matrix.corner);
+  frequency += 2.0;
+  rows.step(frequency * frequency, matrix.first_coupling * coupling);
+  for (frequency += 2.0; frequency * frequency < smallest + 2.0 * q; frequency += 2.0)
+    rows.step(frequency * frequency, coupling);
+  while (rows.tail_step(frequency * frequency, coupling, q)) frequency += 2.0;
+  NewtonSteps result;
+  std::memcpy(result.below.data(), rows.negative.data(), sizeof(result.below));
+  std::memcpy(result.step.data(), rows.sum.data(), sizeof(result.step));
+  for (double& step : result.step) step = -1.0 / step;
+  return result;
 }
 
 }  // namespace strutt

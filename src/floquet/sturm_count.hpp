@@ -26,4 +26,12 @@ using SturmCounts = std::array<std::int64_t, kSturmLanes>;
 /// How many eigenvalues lie below each point, |x| <= 1e9.
 SturmCounts sturm_counts(const MathieuMatrix& matrix, const SturmPoints& points);
 
+/// Newton's step from each point on the determinant, towards an eigenvalue, and the counts; no bound is kept.
+/// What comes out for one point does not depend on the others.
+struct NewtonSteps {
+  SturmPoints step;
+  SturmCounts below;
+};
+NewtonSteps newton_steps(const MathieuMatrix& matrix, const SturmPoints& points);
+
 }  // namespace strutt
