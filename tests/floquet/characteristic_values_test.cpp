@@ -95,6 +95,49 @@ TEST_CASE("The index is a count: no branch is taken for another", "[floquet][cha
   }
 }
 
+TEST_CASE("Twin edges are bracketed one by one: the width of tongue n, down to the rounding of a",
+          "[floquet][characteristic][extreme][N6][N50]") {
+  // 8 (q/4)^n/((n-1)!)^2 (1 - (n + 2) q^2/(4 (n^2 - 1)^2) + O(q^4)), from DLMF 28.6.15
+  const double q = 1.0;
+  double factorial = 1.0;  // (n - 1)!
+  for (int n = 2; n <= 20; ++n) {
+    factorial *= n - 1.0;
+    const double square = n * n - 1.0;
+    const double width = 8.0 * std::pow(q / 4.0, n) / (factorial * factorial) *
+                         (1.0 - (n + 2.0) * q * q / (4.0 * square * square));
+    const auto pair = at(n, q);
+    CAPTURE(n, width);
+    CHECK(std::abs(pair.a.value - pair.b->value - width) <=
+          pair.a.error + pair.b->error + 0.1 * width / square);
+  }
+}
+
+TEST_CASE("A narrow stable band at large q is not inverted", "[floquet][characteristic][extreme][N7]") {
+  // b_(m+1) - a_m ~ 2^(4m+5)/m! sqrt(2/pi) q^(m/2+3/4) exp(-4 sqrt(q)) (DLMF 28.8.2)
+  for (const double q : {25.0, 49.0, 64.0, 100.0, 400.0, 1e6}) {
+    const double band =
+        32.0 * std::sqrt(2.0 / std::acos(-1.0)) * std::pow(q, 0.75) * std::exp(-4.0 * std::sqrt(q));
+    const auto below = at(0, q).a;
+    const auto above = at(1, q).b.value();
+    CAPTURE(q, band);
+    CHECK(std::abs(above.value - below.value - band) <= below.error + above.error + 0.2 * band);
+  }
+}
+
+TEST_CASE("Followed through q, every order stays on its curve", "[floquet][characteristic][extreme][N51]") {
+  // |d a/d q| <= 2, since the derivative is a mean of 2 cos 2t
+  for (double q = 0.0, step = 0.25; q < 60.0; q += step) {
+    const auto here = characteristic_values(0, 12, q), there = characteristic_values(0, 12, q + step);
+    for (std::size_t n = 0; n < here.size(); ++n) {
+      CAPTURE(q, n);
+      CHECK(std::abs(here[n].a.value - there[n].a.value) <= 2.0 * step + here[n].a.error + there[n].a.error);
+      if (n > 0)
+        CHECK(std::abs(here[n].b->value - there[n].b->value) <=
+              2.0 * step + here[n].b->error + there[n].b->error);
+    }
+  }
+}
+
 TEST_CASE("SciPy #4479: nine orders at q = 21 are nine values", "[floquet][characteristic][extreme]") {
   const auto values = characteristic_values(0, 8, 21.0);
   const auto is_14_988 = [](const auto& pair) { return std::abs(pair.a.value - 14.988) < 1e-3; };
