@@ -71,8 +71,10 @@ struct Derivation {
     PairCount any{};
     for (std::size_t k = 0; k < kPairs; ++k) {
       const Pair sum_before = sum[k], above = diagonal - point[k];
+      const PairCount negative_before = negative[k];
       advance(k, diagonal, coupling);
       sum[k] = active[k] ? sum[k] : sum_before;
+      negative[k] = active[k] ? negative[k] : negative_before;
       fall[k] = above >= 2.0 * q ? fall[k] * ((above - q) * (1.0 / q)) : fall[k];
       active[k] &= fall[k] < 0x1p26;
       any |= active[k];

@@ -205,8 +205,8 @@ TEST_CASE("GSL, Savannah #50343: at negative q the letters of odd orders change 
 
 TEST_CASE("A characteristic value does not depend on the other orders asked for",
           "[floquet][characteristic][law]") {
-  for (const double q : {3.7, -3.7, 1e5}) {
-    for (const auto& pair : characteristic_values(3, 40, q)) {
+  for (const double q : {1e-3, 0.2, 3.7, -3.7, 60.0, 3e3, 1e5}) {
+    for (const auto& pair : characteristic_values(3, 120, q)) {
       const auto alone = at(pair.order, q);
       CHECK(alone.a.value == pair.a.value);
       CHECK(alone.b->value == pair.b->value);
@@ -243,10 +243,11 @@ class HalfPeriod {
 };
 
 /// Widens value -+ h until the factor has certain and opposite signs there, so that it has a zero between.
-/// Returns h over the sum of both bounds: a sign is certain from twice the factor's bound on, and h doubles,
-/// so that 4 is the most that honest bounds can give.
+/// Returns h over the sum of both bounds. A sign is certain from twice the factor's bound on, and h grows by
+/// steps of a half: 3 is the most that honest bounds give where the factor is a straight line with one bound,
+/// 4 leaves room for what it is.
 double disagreement(const CharacteristicValue& found, HalfPeriod factor) {
-  for (double h = found.error;; h *= 2.0) {
+  for (double h = found.error;; h *= 1.5) {
     const Factor low = factor(found.value - h), high = factor(found.value + h);
     const double slope = std::abs(high.value - low.value) / (2.0 * h);
     const double allowed = found.error + std::max(low.error, high.error) / slope;
@@ -260,8 +261,9 @@ double disagreement(const CharacteristicValue& found, HalfPeriod factor) {
 
 TEST_CASE("Both routes agree within their bounds: half-period factors of the propagator vanish at the values",
           "[floquet][characteristic][law]") {
-  for (const double q : {0.01, 0.3, 2.5, -2.5, 10.0, 40.0, -150.0, 400.0, 1000.0}) {
+  for (const double q : {0.01, 0.3, 2.5, -2.5, 10.0, 40.0, -150.0, 400.0, 1e3, 1e4, -1e5}) {
     for (const int order : {0, 1, 2, 3, 4, 7, 8, 15, 30, 61}) {
+      if (std::abs(q) >= 1e3 && order > 1 && order < 30) continue;  // they take long
       CAPTURE(q, order);
       const auto pair = at(order, q);
       const double even = disagreement(pair.a, HalfPeriod(true, order, q));
