@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <type_traits>
+#include <utility>
 
 #include "floquet/lapack.hpp"
 
@@ -52,15 +53,37 @@ class Section {
 
   /// Gaussian elimination from both ends towards the core; no row exchange, since all pivots are positive.
   void reduce_to_core() {
-    for (int k = rows_.last; k > rows_.core_last; --k) {
-      const int reach = std::min(width_, k - rows_.first);
-      for (int a = 1; a <= reach; ++a)
-        for (int b = a; b <= reach; ++b) at(k - a, b - a) -= conjugate(at(k, a)) * at(k, b) / at(k, 0);
-    }
-    for (int k = rows_.first; k < rows_.core_first; ++k) {
-      for (int a = 1; a <= width_; ++a)
-        for (int b = 1; b <= a; ++b) at(k + a, a - b) -= at(k + a, a) * conjugate(at(k + b, b)) / at(k, 0);
-    }
+    for (int k = rows_.last; k > rows_.core_last; --k) eliminate_from_above(k, rows_.first);
+    for (int k = rows_.first; k < rows_.core_first; ++k) eliminate_from_below(k, rows_.last);
+  }
+
+  /// The same through the core, up to the row `meeting`; counts the negative pivots. What is counted is the
+  /// inertia of a matrix whose difference has entries of at most (2 width + 6) units of |L| |D| |L|^H, of
+  /// which `growth` is the largest row sum.
+  struct Inertia {
+    int negative;
+    double growth;
+  };
+  Inertia inertia(int meeting) {
+    const int first = rows_.core_first, last = rows_.core_last;
+    Inertia result{0, 0.0};
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(last - first + 1);
+    const auto note = [&](int k, int direction) {
+      const double pivot = std::abs(at(k, 0));
+      result.negative += std::real(at(k, 0)) < 0.0;
+      double beside = 0.0;
+      const int reach = std::min(width_, direction < 0 ? k - first : last - k);
+      const auto entry = [&](int a) { return std::abs(direction < 0 ? at(k, a) : at(k + a, a)); };
+      for (int a = 1; a <= reach; ++a) beside += entry(a);
+      sums[k - first] += pivot + beside;
+      for (int a = 1; a <= reach; ++a) sums[k + direction * a - first] += entry(a) * (1.0 + beside / pivot);
+    };
+    for (int k = last; k > meeting; --k) note(k, -1), eliminate_from_above(k, first);
+    for (int k = first; k < meeting; ++k) note(k, 1), eliminate_from_below(k, meeting);
+    result.negative += std::real(at(meeting, 0)) < 0.0;
+    sums[meeting - first] += std::abs(at(meeting, 0));
+    result.growth = sums.maxCoeff();
+    return result;
   }
 
   /// Lower band storage of LAPACK: (d, j) is the entry (j + d, j).
@@ -75,6 +98,17 @@ class Section {
   }
 
  private:
+  /// Row k from the rows below it, down to `lowest`; or from those above it, up to `highest`.
+  void eliminate_from_above(int k, int lowest) {
+    const int reach = std::min(width_, k - lowest);
+    for (int a = 1; a <= reach; ++a)
+      for (int b = a; b <= reach; ++b) at(k - a, b - a) -= conjugate(at(k, a)) * at(k, b) / at(k, 0);
+  }
+  void eliminate_from_below(int k, int highest) {
+    const int reach = std::min(width_, highest - k);
+    for (int a = 1; a <= reach; ++a)
+      for (int b = 1; b <= a; ++b) at(k + a, a - b) -= at(k + a, a) * conjugate(at(k + b, b)) / at(k, 0);
+  }
   static double conjugate(double x) { return x; }
   static std::complex<double> conjugate(std::complex<double> z) { return std::conj(z); }
   Scalar& at(int k, int distance) { return band_(k - rows_.first, distance); }
@@ -117,12 +151,21 @@ double beyond(const HillMatrix& matrix, int k, double x) {
   return norm * norm / (frequency * frequency - norm - x);
 }
 
+/// The core of (matrix - x), its surroundings eliminated.
 template <typename Scalar>
-CoreEigenvalues solve(const HillMatrix& matrix, double x, double highest) {
-  const double norm = matrix.norm();
-  for (int surroundings = 4 * matrix.width() + 8;; surroundings *= 2) {
+struct Core {
+  Section<Scalar> section;
+  Rows rows;
+  double size;   ///< largest row sum
+  double error;  ///< bound of the norm of what truncation and rounding have changed
+};
+
+template <typename Scalar>
+Core<Scalar> core_of(const HillMatrix& matrix, double x, double highest) {
+  for (int surroundings = matrix.width() + 8;; surroundings *= 2) {
     const Rows rows = rows_of(matrix, highest, surroundings);
     Section<Scalar> upper(matrix, rows, x), lower(matrix, rows, x);
+    const auto plain = upper.core();
     lower.lower_ends(beyond(matrix, rows.last + 1, x), beyond(matrix, rows.first - 1, x));
     upper.reduce_to_core();
     lower.reduce_to_core();
@@ -130,14 +173,33 @@ CoreEigenvalues solve(const HillMatrix& matrix, double x, double highest) {
     const double truncation = largest_row_sum((core - lower.core()).eval()), size = largest_row_sum(core);
     if (truncation > kUnit * size && surroundings < 100'000) continue;
 
-    const double n = static_cast<double>(core.cols()), width = matrix.width();
-    // Cholesky's backward error in the surroundings, whose complement is at most norm / 3 (their least
-    // eigenvalue is 3 norm), that of the entries, and of the reduction to tridiagonal form with what follows
-    // it
+    // Cholesky's backward error in the surroundings (Higham, Accuracy and Stability, theorem 10.3), scaled by
+    // their diagonal, of which they are 3/4 at least; the subtractions; the entries
+    const double width = matrix.width(), complement = largest_row_sum((core - plain).eval());
     const double rounding =
-        kUnit * ((2.0 * width + 1.0) * (width + 4.0) * norm + (4.0 * n + 14.0) * size + std::abs(x));
-    return {lapack::banded_eigenvalues(core), rounding + 1.01 * truncation};
+        kUnit * (3.0 * (2.0 * width + 1.0) * (width + 3.0) * complement + (width + 5.0) * size + std::abs(x));
+    return {std::move(upper), rows, size, 1.01 * (rounding + truncation)};
   }
+}
+
+template <typename Scalar>
+CoreEigenvalues eigenvalues(const HillMatrix& matrix, double x, double highest) {
+  const auto core = core_of<Scalar>(matrix, x, highest);
+  const auto band = core.section.core();
+  // what LAPACK's documentation calls modest times unit roundoff, with a generous constant
+  const double solver = (4.0 * static_cast<double>(band.cols()) + 10.0) * kUnit * core.size;
+  return {lapack::banded_eigenvalues(band), core.error + solver, core.size};
+}
+
+template <typename Scalar>
+CoreCount count(const HillMatrix& matrix, double x, double highest) {
+  auto core = core_of<Scalar>(matrix, x, highest);
+  // Elimination should end where the solutions are large: next to 0 for small x; of the two places of a
+  // travelling wave one is passed in any case.
+  const int length = core.rows.core_last - core.rows.core_first;
+  const int meeting = core.rows.core_first + (matrix.basis == HillBasis::bloch ? length / 4 : 0);
+  const auto [negative, growth] = core.section.inertia(meeting);
+  return {negative, core.error + 1.01 * (2.0 * matrix.width() + 6.0) * kUnit * growth};
 }
 
 }  // namespace
@@ -168,7 +230,12 @@ std::complex<double> HillMatrix::entry(int k, int distance) const {
 }
 
 CoreEigenvalues core_eigenvalues(const HillMatrix& matrix, double x, double highest) {
-  return matrix.real() ? solve<double>(matrix, x, highest) : solve<std::complex<double>>(matrix, x, highest);
+  return matrix.real() ? eigenvalues<double>(matrix, x, highest)
+                       : eigenvalues<std::complex<double>>(matrix, x, highest);
+}
+
+CoreCount core_count(const HillMatrix& matrix, double x, double highest) {
+  return matrix.real() ? count<double>(matrix, x, highest) : count<std::complex<double>>(matrix, x, highest);
 }
 
 }  // namespace strutt

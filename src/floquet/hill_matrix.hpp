@@ -25,15 +25,22 @@ struct HillMatrix {
   std::complex<double> entry(int k, int distance) const;
 };
 
-/// The eigenvalues mu_0 <= mu_1 <= ... of the Schur complement S(x) of (matrix - x) on a core of rows, all
-/// rows outside being positive definite. The number of eigenvalues of the matrix below x is that of the mu
-/// below 0; mu_j falls with x, by 1 or more, and is 0 at the eigenvalue j: |x - eigenvalue j| <= |mu_j(x)|.
+/// The Schur complement S(x) of (matrix - x) on a core of rows, all rows outside being positive definite: the
+/// rows with frequency^2 <= highest + 4 norm; x <= highest. Its number of negative eigenvalues is that of the
+/// eigenvalues of the infinite matrix below x (Sylvester). Its eigenvalue mu_j falls with x, by 1 or more,
+/// and is 0 at the eigenvalue j: |x - eigenvalue j| <= |mu_j(x)|.
 struct CoreEigenvalues {
-  Eigen::VectorXd values;
-  double error = 0.0;  ///< bound of the error of each
+  Eigen::VectorXd values;  ///< mu_0 <= mu_1 <= ..., by LAPACK
+  double error = 0.0;      ///< an estimate from above of the error of each
+  double size = 0.0;       ///< of S
 };
-
-/// x <= `highest`, which fixes the core: the rows with frequency^2 <= highest + 4 norm.
 CoreEigenvalues core_eigenvalues(const HillMatrix& matrix, double x, double highest);
+
+/// The number of eigenvalues below x, right for a matrix whose eigenvalues differ by `error` at most: proved.
+struct CoreCount {
+  int below = 0;
+  double error = 0.0;
+};
+CoreCount core_count(const HillMatrix& matrix, double x, double highest);
 
 }  // namespace strutt

@@ -46,24 +46,55 @@ struct Excitation {
 
 /// Eigenvalue `index` of a matrix, whose square of the frequency is known: |eigenvalue - square| <= norm of
 /// V.
-CharacteristicValue eigenvalue(const HillMatrix& matrix, int index, double square, double change) {
-  const double norm = matrix.norm(), low = square - norm, high = square + norm;
-  double x = square, slope = -1.0;
-  CharacteristicValue best{x, HUGE_VAL};
-  double smallest = HUGE_VAL;
-  for (int step = 0; step < 30; ++step) {
-    const CoreEigenvalues core = core_eigenvalues(matrix, x, high);
-    const double mu = core.values[index], size = std::abs(mu);
-    // secant: the slope is -1 minus the share of the solution outside the core
-    if (step > 0 && x != best.value) slope = std::min(-1.0, (mu - smallest) / (x - best.value));
-    if (size >= std::abs(smallest)) break;
-    smallest = mu;
-    best = {x, (size + core.error + change) * (1.0 + 8.0 * kUnit)};
-    const double next = std::clamp(x - mu / slope, low, high);
-    if (size <= kUnit * std::abs(x) || next == x) break;
-    x = next;
+class Edge {
+ public:
+  Edge(const HillMatrix& matrix, int index, double square)
+      : matrix_(matrix), index_(index), low_(square - matrix.norm()), high_(square + matrix.norm()) {
+    search(square);
+    enclose();
   }
-  return best;
+
+  /// `change`: a bound of the norm of what V may lack.
+  CharacteristicValue value(double change) const { return {x_, (error_ + change) * (1.0 + 8.0 * kUnit)}; }
+
+ private:
+  /// The secant method on eigenvalue mu of the Schur complement, whose slope is -1 minus the share of the
+  /// solution outside the core.
+  void search(double x) {
+    double smallest = HUGE_VAL, slope = -1.0;
+    for (int step = 0; step < 30; ++step) {
+      const CoreEigenvalues core = core_eigenvalues(matrix_, x, high_);
+      const double mu = core.values[index_];
+      if (step > 0) slope = std::min(-1.0, (mu - smallest) / (x - x_));
+      if (std::abs(mu) >= std::abs(smallest)) return;
+      smallest = mu;
+      x_ = x;
+      error_ = std::abs(mu) + core.error;
+      size_ = core.size;
+      x = std::clamp(x_ - mu / slope, low_, high_);
+      if (std::abs(mu) <= kUnit * std::abs(x_) || x == x_) return;
+    }
+  }
+
+  /// Counts on both sides prove what the search has found, mostly with a smaller bound.
+  void enclose() {
+    for (double h = 2.0 * kUnit * size_; h < error_; h *= 4.0) {
+      const CoreCount low = core_count(matrix_, x_ - h, high_ + h),
+                      high = core_count(matrix_, x_ + h, high_ + h);
+      if (low.below > index_ || high.below <= index_) continue;
+      error_ = std::min(error_, h + std::max(low.error, high.error));
+      return;
+    }
+  }
+
+  HillMatrix matrix_;
+  int index_;
+  double low_, high_;
+  double x_ = 0.0, error_ = HUGE_VAL, size_ = 0.0;
+};
+
+CharacteristicValue eigenvalue(const HillMatrix& matrix, int index, double square, double change) {
+  return Edge(matrix, index, square).value(change);
 }
 
 double half_square(int order) { return 0.25 * order * order; }

@@ -26,12 +26,14 @@ struct TongueEdges {
 /// banded matrix: exponent 0 for even n, 1/2 for odd n, its eigenvalues paired by order; if V is even about
 /// some phase, two real ones for each, of cosines and of sines, and each edge has an index of its own. The
 /// matrix is not truncated: what lies outside a finite core is positive definite there, and its Schur
-/// complement enters the core with a proved enclosure; so the index in the core is the index.
+/// complement enters the core with a proved enclosure. LAPACK's eigenvalues of the core lead to the edge; two
+/// counts of negative pivots, below and above it, prove index and value (where the elimination loses too much
+/// for that, a generous estimate of LAPACK's error stands in).
 ///
-/// `error` bounds truncation, rounding and iteration: some 1e-14 to 1e-13 of sum |V_k| + n^2/4, with sum
-/// |V_k| that of the amplitudes of the harmonics. Edges closer than that are not told apart: lower may pass
-/// upper within their errors. Cost: that of about four banded eigenvalue problems with n + 4 sqrt(sum |V_k|)
-/// rows for each edge.
+/// `error` bounds truncation, rounding and iteration: some 1e-14 of 1 + sum |V_k| + n^2/4 for few harmonics,
+/// with sum |V_k| that of their amplitudes. Edges closer than that are not told apart: lower may pass upper
+/// within their errors. Cost: that of about four banded eigenvalue problems with n + 4 sqrt(sum |V_k|) rows
+/// for each edge.
 ///
 /// Throws InvalidInput unless 0 <= first <= last <= 1000, V has finitely many harmonics (no square wave nor
 /// its antiderivatives) and sum |V_k| <= 1e6. Source: Magnus, Winkler, Hill's Equation (1966), chapters 1
