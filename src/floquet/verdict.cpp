@@ -27,7 +27,7 @@ Bounded product(Bounded a, Bounded b) {
   return {p, std::abs(a.value) * b.error + a.error * std::abs(b.value) + a.error * b.error + 2.0 * kUnit * std::abs(p)};
 }
 
-Bounded entry(const BoundedMatrix& m, int i, int j) { return {m.value.mantissa(i, j), m.error(i, j)}; }
+Bounded entry(const BoundedMatrix2& m, int i, int j) { return {m.value.mantissa(i, j), m.error(i, j)}; }
 
 DiscriminantGap from_trace(Bounded trace, long exponent) {
   DiscriminantGap d;
@@ -40,7 +40,7 @@ DiscriminantGap from_trace(Bounded trace, long exponent) {
   return d;
 }
 
-DiscriminantGap from_half_period(const BoundedMatrix& half) {
+DiscriminantGap from_half_period(const BoundedMatrix2& half) {
   const Bounded upper = product(entry(half, 1, 0), entry(half, 0, 1));  // u1' u2 = (D - 2)/4
   const Bounded lower = product(entry(half, 0, 0), entry(half, 1, 1));  // u1 u2' = (D + 2)/4
   const long exponent = 2 * half.value.exponent;
@@ -52,7 +52,7 @@ DiscriminantGap from_half_period(const BoundedMatrix& half) {
   return d;
 }
 
-DiscriminantGap from_period(const BoundedMatrix& m) {
+DiscriminantGap from_period(const BoundedMatrix2& m) {
   const Bounded a = entry(m, 0, 0), d = entry(m, 1, 1);
   auto result = from_trace({a.value + d.value, a.error + d.error + kUnit * std::abs(a.value + d.value)}, m.value.exponent);
   const Bounded half_difference{0.5 * (a.value - d.value), 0.5 * (a.error + d.error)};
@@ -87,7 +87,7 @@ Verdict verdict_of(const Margin& margin) {
   return margin.value > 0.0 ? Verdict::stable : Verdict::unstable;
 }
 
-DiscriminantGap discriminant_gap(const Monodromy& monodromy) {
+DiscriminantGap discriminant_gap(const HillMonodromy& monodromy) {
   return monodromy.half ? from_half_period(*monodromy.half) : from_period(monodromy.undamped);
 }
 
@@ -99,7 +99,7 @@ Margin hill_margin(const DiscriminantGap& d, double half_damping) {
     const double error = d.log_abs_error + 4.0 * kUnit * (h + std::abs(d.log_abs));
     return {-std::expm1(log_ratio), std::exp(log_ratio) * std::expm1(error) + 2.0 * kUnit};
   }
-  if (h == 0.0) return {0.5 * d.gap, 0.5 * d.gap_error};
+  if (h == 0.0) return {0.0 + 0.5 * d.gap, 0.5 * d.gap_error};  // not -0
   const double half_sinh = std::sinh(0.5 * h), two_cosh = 2.0 * std::cosh(h);
   const double allowance = 4.0 * half_sinh * half_sinh;  // 2 cosh h - 2
   const double h_error = 4.0 * kUnit * h;

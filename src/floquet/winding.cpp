@@ -33,7 +33,7 @@ double turned_angle(const PeriodicFunction& w, double kappa, int steps) {
 }
 
 /// The angle of N (0, 1) without its ambiguity of whole turns, or NaN.
-double lifted_angle(const PeriodicFunction& w, const BoundedMatrix& undamped, double kappa) {
+double lifted_angle(const PeriodicFunction& w, const BoundedMatrix2& undamped, double kappa) {
   const auto& n = undamped.value.mantissa;
   const double end = std::atan2(n(0, 1), n(1, 1));
   double steps = std::max(64.0, std::max(32.0 * w.highest_order(), std::ceil(2.0 * pi * std::sqrt(w.bound()))));
@@ -47,7 +47,7 @@ double lifted_angle(const PeriodicFunction& w, const BoundedMatrix& undamped, do
 
 }  // namespace
 
-double winding_number(const PeriodicFunction& w, const BoundedMatrix& undamped, const DiscriminantGap& d,
+double winding_number(const PeriodicFunction& w, const BoundedMatrix2& undamped, const DiscriminantGap& d,
                       double kappa) {
   const double half_turns = lifted_angle(w, undamped, kappa) / pi;
   if (!std::isfinite(half_turns)) return std::numeric_limits<double>::quiet_NaN();
