@@ -106,6 +106,7 @@ void summarise(const MotionArguments& arguments, const Motion& motion, double se
 
 ExitCode run(const MotionArguments& arguments) {
   check_flags(arguments);
+  require_one_standard_input(arguments, "--times", arguments.times);
   MotionOptions options{
       .tolerance = tolerance_of(arguments),
       .method = method_of(arguments, "motion", {Method::arkode, Method::cvode, Method::exact}),

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string_view>
 
 #include "commands.hpp"
 #include "orbits.hpp"
@@ -33,8 +35,7 @@ void check_flags(const PeriodArguments& arguments) {
   for (const Input& input : kInputs) given += arguments.*input.argument ? 1 : 0;
   if (given != 1)
     throw UsageError("wanted is exactly one of --amplitude, --from-top, --separatrix-excess, --points");
-  if (arguments.points == "-" && arguments.scene == "-")
-    throw UsageError("scene and points cannot both be standard input");
+  require_one_standard_input(arguments, "--points", arguments.points);
   if (arguments.scene.empty() && !arguments.set.empty()) throw UsageError("--set goes with --scene only");
   if (!arguments.figure) return;
   if (!arguments.compare || !arguments.points) throw UsageError("--figure goes with --points and --compare");
@@ -150,6 +151,18 @@ std::optional<PeriodFigure> figure_of(const PeriodArguments& arguments) {
   return std::optional<PeriodFigure>(std::in_place, *arguments.figure);
 }
 
+/// The double next to pi is often meant for pi itself, where the period is infinite.
+void warn_about_pi(const PeriodArguments& arguments, const Orbits& orbits) {
+  const bool amplitudes = std::string_view(orbits.input->column) == "amplitude";
+  const bool met = amplitudes && std::any_of(orbits.rows.begin(), orbits.rows.end(), [&](const auto& row) {
+                     return row[orbits.orbit_column] == std::numbers::pi;
+                   });
+  if (met && !arguments.quiet)
+    print_warning(
+        "amplitude 3.141592653589793 is 1.2e-16 below pi and its period finite; the separatrix is from_top "
+        "0");
+}
+
 void print_plan(const std::optional<SceneFile>& scene, const Orbits& orbits, const Wanted& wanted) {
   const std::vector<std::string> lines{
       fmt::format("points: {}", orbits.rows.size()),
@@ -177,6 +190,7 @@ ExitCode run(const PeriodArguments& arguments) {
     print_plan(scene, orbits, wanted);
     return ExitCode::done;
   }
+  warn_about_pi(arguments, orbits);
   install_signal_handlers();
   const auto samples = arguments.figure ? samples_of(orbits) : std::vector<PeriodSample>{};
   if (arguments.figure) check_samples(samples, *arguments.points);

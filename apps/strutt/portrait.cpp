@@ -96,6 +96,7 @@ std::vector<MotionStart> starts_in(const std::string& path) {
 
 Job job_of(const PortraitArguments& a) {
   Job job;
+  require_one_standard_input(a, "--starts", a.starts);
   if (!a.scene.empty()) {
     job.scene = load_scene(a);
     if (!job.scene->scene.pendulum)

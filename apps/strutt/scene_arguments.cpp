@@ -1,13 +1,13 @@
 #include "scene_arguments.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
 
 #include "exit_code.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/chart/stability_chart.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -32,15 +32,6 @@ void apply_set(Scene& scene, const std::string& text) {
   });
 }
 
-/// Values that are each in their range can still make no equation together (a frequency of 1e-300 rad/s).
-void check_equation(const SceneFile& file) {
-  try {
-    (void)linear_model(file.scene);
-  } catch (const InvalidInput& error) {
-    throw FileError(file.file, 0, 0, error.what());
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -55,16 +46,19 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 SceneFile load_scene(const CommonArguments& arguments) {
   SceneFile file = read_scene(arguments.scene);
-  if (arguments.set.empty()) {
-    check_equation(file);
-    return file;
-  }
+  if (arguments.set.empty()) return file;
   for (const auto& text : arguments.set) apply_set(file.scene, text);
   about_flag("--set", [&] {
     validate(file.scene);
     (void)linear_model(file.scene);
   });
   return file;
+}
+
+void require_one_standard_input(const CommonArguments& arguments, const std::string& flag,
+                                const std::optional<std::string>& table) {
+  if (arguments.scene == "-" && table == "-")
+    throw UsageError("the scene and " + flag + " cannot both be standard input");
 }
 
 double quantity_of(const std::string& flag, const std::string& text, const std::string& dimension) {
@@ -123,7 +117,7 @@ Axis axis_of(const std::string& flag, const std::string& text, const Scene& scen
     const std::string unit = parameter_info(scene, axis.parameter).unit;
     axis.from = parse_quantity(parts[0], unit);
     axis.to = parse_quantity(parts[1], unit);
-    axis.points = count_of("the number of points", parts[2], 1, kMost);
+    axis.points = count_of(flag + ": the number of points", parts[2], 1, kMost);
     if (scaled && parts[3] == "log") axis.scale = AxisScale::logarithmic;
     axis.validate(flag.substr(flag.find_first_not_of('-')));
     return axis;
@@ -172,8 +166,7 @@ void warn_about(const CommonArguments& arguments, const Scene& scene) {
 }
 
 void require_memory(const CommonArguments& arguments, double bytes) {
-  const double budget =
-      0.5 * static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const double budget = memory_budget();
   if (arguments.force || bytes <= budget) return;
   throw MemoryBudgetExceeded(
       fmt::format("this needs {:.3g} GB of memory, the budget is {:.3g} GB; --force lifts it", bytes / 1e9,

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ std::vector<std::string> split(const std::string& text, char separator);
 /// The scene of the command line with every --set applied. Throws FileError for what is wrong in the file,
 /// UsageError for what is wrong in --set.
 SceneFile load_scene(const CommonArguments& arguments);
+
+/// Throws UsageError if the scene and the table of `flag` are both to be read from standard input.
+void require_one_standard_input(const CommonArguments& arguments, const std::string& flag,
+                                const std::optional<std::string>& table);
 
 /// The value of a flag, a number or a number with a unit. Throws UsageError naming the flag.
 double quantity_of(const std::string& flag, const std::string& text, const std::string& dimension);

@@ -10,6 +10,7 @@
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
+#include "strutt/chart/stability_chart.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -18,7 +19,8 @@ namespace {
 // Beyond, the columns m11 ... mnn are left out.
 constexpr int kMostMatrixStates = 9;
 // Rows that are computed before they are written, for each thread.
-constexpr std::size_t kBlockRows = 64;
+constexpr std::size_t kBlockRows = 256;    // per thread, between two looks at progress
+constexpr std::size_t kMostTogether = 64;  // rows given to an engine at once
 
 /// The points asked for: the parameters that change, and a row of values for each point.
 struct Points {
@@ -52,8 +54,8 @@ class ScenePoint {
   std::vector<double*> values_;
 };
 
-/// The column that a complaint "field = value ..." is about: the parameter of that name, or one inside the matrix of
-/// that name. The first one where no cell alone is to blame.
+/// The column that a complaint "field = value ..." is about: the parameter of that name, or one inside the
+/// matrix of that name. The first one where no cell alone is to blame.
 std::size_t blamed_column(const std::vector<std::string>& columns, const std::string& complaint) {
   const std::string field = complaint.substr(0, complaint.find(" = "));
   const auto found = std::find_if(columns.begin(), columns.end(), [&](const std::string& column) {
@@ -168,9 +170,14 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
   std::vector<Stability> block(std::min(most, total));
   for (std::size_t first = 0; first < total; first += most) {
     const std::size_t size = std::min(most, total - first);
-    parallel_for(size, parallel, [&](std::size_t i, int slot) {
+    const std::size_t together = std::clamp<std::size_t>(size / (4 * slots), 1, kMostTogether);
+    parallel_for((size + together - 1) / together, parallel, [&](std::size_t task, int slot) {
       const auto own = static_cast<std::size_t>(slot);
-      block[i] = analyse(engines[own], linear_model(scenes[own]->at(points.values[first + i])), options);
+      const std::size_t begin = task * together, end = std::min(begin + together, size);
+      std::vector<LinearModel> models;
+      for (std::size_t i = begin; i < end; ++i)
+        models.push_back(linear_model(scenes[own]->at(points.values[first + i])));
+      std::ranges::move(analyse(engines[own], models, options), block.begin() + begin);
     });
     throw_if_interrupted();
     for (std::size_t i = 0; i < size; ++i) {
@@ -182,24 +189,30 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
   return counts;
 }
 
+std::vector<std::string> plan_lines(const Scene& scene, const Points& points, const MonodromyOptions& options,
+                                    int threads) {
+  const Method method = method_for(linear_model(scene), options.method);
+  const int used = thread_count({.threads = threads});
+  const double seconds = static_cast<double>(points.values.size()) * expected_seconds_per_point(method) / used;
+  return {fmt::format("points: {}", points.values.size()), fmt::format("states: {}", states_of(scene)),
+          fmt::format("expected time: {:.2g} s", seconds), "method: " + std::string(to_string(method)),
+          "tolerance: " + to_text(options.tolerance), fmt::format("threads: {}", used)};
+}
+
 }  // namespace
 
 ExitCode run(const StabilityArguments& arguments) {
-  const MonodromyOptions options{
-      .tolerance = tolerance_of(arguments),
-      .method = method_of(arguments, "stability", {Method::propagator, Method::cvode, Method::arkode, Method::exact}),
+  MonodromyOptions options{
+      .method = method_of(arguments, "stability",
+                          {Method::propagator, Method::cvode, Method::arkode, Method::exact}),
       .cancel = &cancel_flag()};
   const int threads = threads_of(arguments);
-  if (arguments.points == "-" && arguments.scene == "-")
-    throw UsageError("scene and points cannot both be standard input");
+  require_one_standard_input(arguments, "--points", arguments.points);
   const SceneFile scene = load_scene(arguments);
+  options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
   const Points points = read_points(arguments, scene, options.method);
   if (arguments.dry_run) {
-    print_plan(
-        scene,
-        {fmt::format("points: {}", points.values.size()), fmt::format("states: {}", states_of(scene.scene)),
-         "method: " + std::string(to_string(options.method)), "tolerance: " + to_text(options.tolerance),
-         fmt::format("threads: {}", thread_count({.threads = threads}))});
+    print_plan(scene, plan_lines(scene.scene, points, options, threads));
     return ExitCode::done;
   }
   warn_about(arguments, scene.scene);

@@ -59,4 +59,17 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   return best;
 }
 
+std::string quoted_list(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) list += (i == 0 ? "'" : ", '") + names[i] + "'";
+  return names.size() > most ? list + ", ... (" + std::to_string(names.size()) + " in all)" : list;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  const std::string close = nearest(word, known);
+  if (!close.empty()) return "; did you mean '" + close + "'?";
+  return known.empty() ? "" : "; known are " + quoted_list(known);
+}
+
 }  // namespace strutt

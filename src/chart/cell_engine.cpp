@@ -20,14 +20,25 @@ CellEngine::CellEngine(const Scene& scene, const ChartRequest& request)
   }
 }
 
-Stability CellEngine::compute(double x, double y) {
-  *x_ = x;
-  *y_ = y;
-  try {
-    return analyse(engine_, linear_model(scene_), options_, parts_);
-  } catch (const InvalidInput&) {
-    return {};  // outcome failed: the corners were checked, but not every combination inside need be a body
+std::vector<Stability> CellEngine::compute(std::span<const std::array<double, 2>> points) {
+  std::vector<LinearModel> models;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    *x_ = points[i][0];
+    *y_ = points[i][1];
+    try {
+      LinearModel model = linear_model(scene_);
+      std::visit([](const auto& m) { m.validate(); }, model);
+      models.push_back(std::move(model));
+      places.push_back(i);
+    } catch (const InvalidInput&) {
+      // outcome failed: the corners were checked, but not every combination inside need be a body
+    }
   }
+  auto found = analyse(engine_, models, options_, parts_);
+  std::vector<Stability> results(points.size());
+  for (std::size_t j = 0; j < places.size(); ++j) results[places[j]] = std::move(found[j]);
+  return results;
 }
 
 double written_trace(double trace) {

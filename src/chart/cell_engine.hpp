@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <span>
+#include <vector>
+
 #include "strutt/chart/stability_chart.hpp"
 #include "strutt/floquet/stability.hpp"
 
@@ -12,7 +16,8 @@ class CellEngine {
   CellEngine(const Scene& scene, const ChartRequest& request);
   CellEngine(const CellEngine&) = delete;
 
-  Stability compute(double x, double y);
+  /// One result for each of the points (x, y).
+  std::vector<Stability> compute(std::span<const std::array<double, 2>> points);
 
  private:
   Scene scene_;

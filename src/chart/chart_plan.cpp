@@ -28,17 +28,6 @@ constexpr CellCost kCellCosts[] = {{Method::surrogate, 2e-8},
 
 constexpr double kMatrixCellSeconds = 4e-6;  // surrogates of whole periods: eigenvalues cell by cell
 
-double seconds_per_cell(Method method) {
-  for (const auto& cost : kCellCosts) {
-    if (cost.method == method) return cost.seconds;
-  }
-  return 0.0;
-}
-
-double physical_memory() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 std::string gigabytes(double bytes) { return to_text(std::round(bytes / 1e7) / 100.0) + " GB"; }
 
 void check_request(const ChartRequest& request) {
@@ -58,6 +47,17 @@ void check_request(const ChartRequest& request) {
 }
 
 }  // namespace
+
+double memory_budget() {
+  return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double expected_seconds_per_point(Method method) {
+  for (const auto& cost : kCellCosts) {
+    if (cost.method == method) return cost.seconds;
+  }
+  return 0.0;
+}
 
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   check_request(request);
@@ -80,7 +80,7 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   plan.rows_per_strip = std::clamp<std::size_t>(kStripCells / nx, 1, ny);
   plan.result_bytes = 8.0 * (cells * static_cast<double>(layers) + static_cast<double>(nx + ny));
   plan.working_bytes = 8.0 * static_cast<double>(plan.rows_per_strip * nx) * static_cast<double>(layers + 4);
-  plan.budget_bytes = 0.5 * physical_memory();
+  plan.budget_bytes = memory_budget();
   if (request.method == Method::surrogate) plan.refusal = Surrogate::refusal(scene, request.x, request.y);
   const bool interpolated = request.method == Method::surrogate && plan.refusal.empty();
   plan.method = interpolated || request.method != Method::surrogate ? request.method : Method::automatic;
@@ -89,7 +89,7 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   const bool matrices =
       interpolated && surrogate_scope(scene, request.x, request.y).kind == SurrogateKind::period;
   plan.expected_seconds =
-      cells * (matrices ? kMatrixCellSeconds : seconds_per_cell(plan.method)) / plan.threads;
+      cells * (matrices ? kMatrixCellSeconds : expected_seconds_per_point(plan.method)) / plan.threads;
   const double bytes = std::max(plan.result_bytes, plan.working_bytes);
   if (bytes > plan.budget_bytes && !request.force) {
     throw MemoryBudgetExceeded("a chart of " + std::to_string(nx) + " x " + std::to_string(ny) +

@@ -64,7 +64,7 @@ PropagatorSample HillModel::sample(double x, double y, double tolerance, const s
   const bool has_value =
       found.outcome == Outcome::converged || found.outcome == Outcome::tolerance_not_reached;
   if (!has_value || (even_phase_ && !found.half)) return result;
-  const BoundedMatrix& propagator = even_phase_ ? *found.half : found.undamped;
+  const BoundedMatrix2& propagator = even_phase_ ? *found.half : found.undamped;
   const auto canonical = at_kappa(propagator.value.mantissa, propagator.error, 1.0 / found.kappa);
   result.value = canonical.value;
   result.error = canonical.error;

@@ -43,10 +43,13 @@ std::vector<int> basis_of(const Points& points) {
 }
 
 std::vector<Group> groups_of(const Points& points, double length, double tolerance) {
+  std::map<int, HillStepPlanner> planners;  // by the highest order
   std::map<std::pair<int, int>, std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i]) continue;
-    const auto plan = plan_hill_steps(points[i]->equation.coefficient, 0.0, length, tolerance);
+    const auto& w = points[i]->equation.coefficient;
+    const int highest = w.highest_order();
+    const auto plan = planners.try_emplace(highest, highest, length, tolerance).first->second.plan(w.bound());
     if (plan.steps > 0) members[{plan.order, plan.steps}].push_back(i);
   }
   std::vector<Group> groups;

@@ -28,10 +28,16 @@ Stability MatrixCell::assess(double x, double y, const SurrogateBox& box, const 
     const auto scale = point_equation(model, std::nullopt);
     if (!scale) return {};
     const auto propagator = at_kappa(value, error, scale->sample.kappa / box.kappa);
-    const auto monodromy = monodromy_of(SurrogateKind::period, propagator, box.exponent, scale->sample,
-                                        scale->angular_frequency, tolerance_);
-    if (const auto equation = hill_equation_of(model)) return strutt::assess(*equation, monodromy, parts_);
-    return strutt::assess(std::get<LinearPeriodicSystem>(model), monodromy, parts_);
+    if (const auto equation = hill_equation_of(model)) {
+      return strutt::assess(*equation,
+                            hill_monodromy_of(SurrogateKind::period, propagator, box.exponent, scale->sample,
+                                              scale->angular_frequency, tolerance_),
+                            parts_);
+    }
+    return strutt::assess(
+        std::get<LinearPeriodicSystem>(model),
+        system_monodromy_of(propagator, box.exponent, scale->sample, scale->angular_frequency, tolerance_),
+        parts_);
   } catch (const InvalidInput&) {
     return {};  // no model there
   }

@@ -18,6 +18,19 @@ double error_from_half_period(const PointPropagator& p, long exponent, const Pro
                          {exponent, sample.half_damping, sample.kappa, sample.shifted});
 }
 
+/// From N to M.
+template <typename Matrix>
+void finish(BasicMonodromy<Matrix>& result, const PropagatorSample& sample, double angular_frequency,
+            double tolerance) {
+  result.half_damping = sample.half_damping;
+  result.kappa = sample.kappa * angular_frequency;
+  result.matrix = restore_damping(result.undamped, sample.half_damping,
+                                  0.5 * sample.half_damping / (std::numbers::pi * sample.kappa));
+  result.error = scaled_error(result.matrix);
+  result.method = Method::surrogate;
+  result.outcome = result.error <= tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
+}
+
 }  // namespace
 
 PointPropagator at_kappa(const Eigen::MatrixXd& value, const Eigen::MatrixXd& error, double ratio) {
@@ -35,27 +48,30 @@ PointPropagator at_kappa(const Eigen::MatrixXd& value, const Eigen::MatrixXd& er
 double error_of_monodromy(SurrogateKind kind, const PointPropagator& propagator, long exponent,
                           const PropagatorSample& sample) {
   if (kind == SurrogateKind::half_period) return error_from_half_period(propagator, exponent, sample);
-  return monodromy_of(kind, propagator, exponent, sample, 1.0, 1.0).error;
+  return system_monodromy_of(propagator, exponent, sample, 1.0, 1.0).error;
 }
 
-Monodromy monodromy_of(SurrogateKind kind, const PointPropagator& propagator, long exponent,
-                       const PropagatorSample& sample, double angular_frequency, double tolerance) {
-  BoundedMatrix bounded{{propagator.value, exponent}, propagator.error};
+HillMonodromy hill_monodromy_of(SurrogateKind kind, const PointPropagator& propagator, long exponent,
+                                const PropagatorSample& sample, double angular_frequency, double tolerance) {
+  BoundedMatrix2 bounded{{Eigen::Matrix2d(propagator.value), exponent}, Eigen::Matrix2d(propagator.error)};
   bounded.normalise();
-  Monodromy result;
-  result.half_damping = sample.half_damping;
-  result.kappa = sample.kappa * angular_frequency;
+  HillMonodromy result;
   if (kind == SurrogateKind::half_period) {
     result.undamped = period_from_half({bounded}, 0);
-    result.half = std::move(bounded);
+    result.half = bounded;
   } else {
-    result.undamped = std::move(bounded);
+    result.undamped = bounded;
   }
-  result.matrix = restore_damping(result.undamped, sample.half_damping,
-                                  0.5 * sample.half_damping / (std::numbers::pi * sample.kappa));
-  result.error = scaled_error(result.matrix);
-  result.method = Method::surrogate;
-  result.outcome = result.error <= tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
+  finish(result, sample, angular_frequency, tolerance);
+  return result;
+}
+
+Monodromy system_monodromy_of(const PointPropagator& propagator, long exponent,
+                              const PropagatorSample& sample, double angular_frequency, double tolerance) {
+  Monodromy result;
+  result.undamped = BoundedMatrix{{propagator.value, exponent}, propagator.error};
+  result.undamped.normalise();
+  finish(result, sample, angular_frequency, tolerance);
   return result;
 }
 

@@ -37,8 +37,10 @@ PointPropagator at_kappa(const Eigen::MatrixXd& value, const Eigen::MatrixXd& er
 double error_of_monodromy(SurrogateKind kind, const PointPropagator& propagator, long exponent,
                           const PropagatorSample& sample);
 
-/// The same as a Monodromy. `angular_frequency`: of canonical time.
-Monodromy monodromy_of(SurrogateKind kind, const PointPropagator& propagator, long exponent,
-                       const PropagatorSample& sample, double angular_frequency, double tolerance);
+/// The same as a monodromy. `angular_frequency`: of canonical time.
+HillMonodromy hill_monodromy_of(SurrogateKind kind, const PointPropagator& propagator, long exponent,
+                                const PropagatorSample& sample, double angular_frequency, double tolerance);
+Monodromy system_monodromy_of(const PointPropagator& propagator, long exponent,
+                              const PropagatorSample& sample, double angular_frequency, double tolerance);
 
 }  // namespace strutt

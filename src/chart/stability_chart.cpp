@@ -1,10 +1,12 @@
 #include "strutt/chart/stability_chart.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "chart/cell_engine.hpp"
 #include "chart/surrogate_cells.hpp"
@@ -12,6 +14,8 @@
 
 namespace strutt {
 namespace {
+
+constexpr std::size_t kMostTogether = 256;  // cells given to an engine at once: enough to fill its registers
 
 /// What a cell adds to the summary.
 struct CellRecord {
@@ -35,7 +39,7 @@ class BatchSize {
   }
 
  private:
-  static constexpr std::size_t kFirst = 8, kMost = 512;  // per thread
+  static constexpr std::size_t kFirst = 8, kMost = 8192;  // per thread
   std::size_t threads_;
   std::size_t size_;
 };
@@ -69,9 +73,14 @@ class PointByPoint {
     for (std::size_t start = 0, count = 0; start < places.size(); start += count) {
       const auto begin = std::chrono::steady_clock::now();
       count = std::min(batch_.size(), places.size() - start);
-      const bool complete = parallel_for(count, parallel_, [&](std::size_t k, int slot) {
-        records_[k] = fill_cell(strip, places[start + k], *engines_[static_cast<std::size_t>(slot)]);
-      });
+      const std::size_t together = std::clamp<std::size_t>(count / (4 * engines_.size()), 1, kMostTogether);
+      const std::span<const std::size_t> some(&places[start], count);
+      const bool complete =
+          parallel_for((count + together - 1) / together, parallel_, [&](std::size_t task, int slot) {
+            const std::size_t first = task * together, size = std::min(together, count - first);
+            fill_cells(strip, some.subspan(first, size), &records_[first],
+                       *engines_[static_cast<std::size_t>(slot)]);
+          });
       // a cell that was being integrated when the caller cancelled counts as done, but holds nothing
       if (!complete || (request_.cancel != nullptr && request_.cancel->load())) return false;
       for (std::size_t k = 0; k < count; ++k) add(summary, records_[k], with_verdict_);
@@ -82,13 +91,21 @@ class PointByPoint {
   }
 
  private:
-  CellRecord fill_cell(ChartStrip& strip, std::size_t cell, CellEngine& engine) const {
-    const auto result = engine.compute(request_.x.value(cell % strip.columns),
-                                       request_.y.value(strip.first_row + cell / strip.columns));
-    for (std::size_t l = 0; l < request_.layers.size(); ++l)
-      strip.values[l][cell] = layer_value(result, request_.layers[l]);
-    return {result.outcome, result.verdict == Verdict::unresolved, result.error,
-            result.cost.right_hand_sides + result.estimate_cost.right_hand_sides};
+  void fill_cells(ChartStrip& strip, std::span<const std::size_t> cells, CellRecord* records,
+                  CellEngine& engine) const {
+    std::vector<std::array<double, 2>> points;
+    for (const std::size_t cell : cells) {
+      points.push_back(
+          {request_.x.value(cell % strip.columns), request_.y.value(strip.first_row + cell / strip.columns)});
+    }
+    const auto results = engine.compute(points);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const auto& result = results[k];
+      for (std::size_t l = 0; l < request_.layers.size(); ++l)
+        strip.values[l][cells[k]] = layer_value(result, request_.layers[l]);
+      records[k] = {result.outcome, result.verdict == Verdict::unresolved, result.error,
+                    result.cost.right_hand_sides + result.estimate_cost.right_hand_sides};
+    }
   }
 
   const ChartRequest& request_;

@@ -101,18 +101,38 @@ const SurrogateBox* Surrogate::box_at(double x, double y) const {
   return found == data_.boxes.end() || !found->interpolated ? nullptr : &*found;
 }
 
-std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
+std::optional<Surrogate::Point> Surrogate::point_at(double x, double y) const {
   const SurrogateBox* const box = box_at(x, y);
   if (box == nullptr) return std::nullopt;
   Scene scene = data_.scene;
   parameter(scene, data_.x.parameter) = x;
   parameter(scene, data_.y.parameter) = y;
-  const auto equation = point_equation(linear_model(scene), data_.even_phase);
-  if (!equation) return std::nullopt;
-  const auto value = evaluate(*box, coordinate(data_.x, x), coordinate(data_.y, y));
-  const auto scaled = at_kappa(value, error_matrix(*box), equation->sample.kappa / box->kappa);
-  return monodromy_of(data_.kind, scaled, box->exponent, equation->sample, equation->angular_frequency,
-                      data_.tolerance);
+  return Point{box, linear_model(scene)};
+}
+
+std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const {
+  const auto point = point_at(x, y);
+  if (!point || !hill_equation_of(point->model)) return std::nullopt;
+  const auto scale = point_equation(point->model, data_.even_phase);
+  if (!scale) return std::nullopt;
+  const SurrogateBox& box = *point->box;
+  const auto value = evaluate(box, coordinate(data_.x, x), coordinate(data_.y, y));
+  return hill_monodromy_of(data_.kind, at_kappa(value, error_matrix(box), scale->sample.kappa / box.kappa),
+                           box.exponent, scale->sample, scale->angular_frequency, data_.tolerance);
+}
+
+std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
+  const auto point = point_at(x, y);
+  if (!point) return std::nullopt;
+  if (hill_equation_of(point->model)) {
+    const auto found = hill_monodromy(x, y);
+    return found ? std::optional(widened(*found)) : std::nullopt;
+  }
+  const auto scale = point_equation(point->model, std::nullopt);
+  const SurrogateBox& box = *point->box;
+  const auto value = evaluate(box, coordinate(data_.x, x), coordinate(data_.y, y));
+  return system_monodromy_of(at_kappa(value, error_matrix(box), scale->sample.kappa / box.kappa),
+                             box.exponent, scale->sample, scale->angular_frequency, data_.tolerance);
 }
 
 std::optional<SurrogateGradient> Surrogate::gradient(double x, double y) const {

@@ -33,20 +33,20 @@ CosSin cos_sin(double w, double s, double half_turns) {
   }
 }
 
-BoundedMatrix oscillating(double w, double half_turns, double kappa) {
+BoundedMatrix2 oscillating(double w, double half_turns, double kappa) {
   const double s = std::sqrt(w);
   const auto [c, z] = cos_sin(w, s, half_turns);
-  BoundedMatrix result = BoundedMatrix::identity(2);
+  BoundedMatrix2 result = BoundedMatrix2::identity(2);
   result.value.mantissa << c, kappa * z / s, -s * z / kappa, c;
   return result;
 }
 
 /// e^x = factor * 2^exponent with factor near 1; the exponent takes out all but ln 2 of x.
-BoundedMatrix growing(double w, double half_turns, double kappa) {
+BoundedMatrix2 growing(double w, double half_turns, double kappa) {
   const double s = std::sqrt(-w);
   const double x = s * pi * half_turns;
   const double decay = std::exp(-2.0 * x);
-  BoundedMatrix result = BoundedMatrix::identity(2);
+  BoundedMatrix2 result = BoundedMatrix2::identity(2);
   const double exponent = std::floor(x / std::numbers::ln2);
   const double factor = std::exp(x - exponent * std::numbers::ln2);
   const double c = 0.5 * factor * (1.0 + decay), z = -0.5 * factor * std::expm1(-2.0 * x);
@@ -57,7 +57,7 @@ BoundedMatrix growing(double w, double half_turns, double kappa) {
 }
 
 /// Adds the effect of an error of w: dPhi/dw = -integral Phi(L, t) [0 0; 1/kappa 0] Phi(t, 0) dt, bounded entry by entry.
-void add_coefficient_error(BoundedMatrix& result, double w, double length, double kappa, double absolute_error) {
+void add_coefficient_error(BoundedMatrix2& result, double w, double length, double kappa, double absolute_error) {
   if (absolute_error == 0.0) return;
   const double s = std::sqrt(std::abs(w));
   const double reach = s * length > 1.0 ? 1.0 / s : length;  // the size of Y started with slope 1
@@ -67,14 +67,14 @@ void add_coefficient_error(BoundedMatrix& result, double w, double length, doubl
   Eigen::Matrix2d effect;
   effect << 1.0, kappa * reach, std::max(s, 1.0 / length) / kappa, 1.0;
   const bool grows = w < 0.0;
-  result.error += phase * (grows ? Eigen::MatrixXd(Eigen::Matrix2d::Constant(size)) : Eigen::MatrixXd(effect));
+  result.error += phase * (grows ? Eigen::Matrix2d(Eigen::Matrix2d::Constant(size)) : effect);
 }
 
 }  // namespace
 
-BoundedMatrix constant_propagator(double w, double half_turns, double kappa, double coefficient_error) {
+BoundedMatrix2 constant_propagator(double w, double half_turns, double kappa, double coefficient_error) {
   const double length = pi * half_turns;
-  BoundedMatrix result = BoundedMatrix::identity(2);
+  BoundedMatrix2 result = BoundedMatrix2::identity(2);
   if (w > 0.0) {
     result = oscillating(w, half_turns, kappa);
   } else if (w < 0.0) {

@@ -12,17 +12,19 @@ namespace {
 constexpr std::array kMethods{Method::automatic, Method::propagator, Method::exact, Method::arkode,
                               Method::cvode};
 
-/// The splitting where it reaches the tolerance, otherwise whatever comes closest.
-Monodromy automatic_hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
-                                   const MonodromyOptions& options) {
-  Monodromy result = hill_monodromy(pool, equation, Method::propagator, options);
-  if (result.outcome == Outcome::converged || result.outcome == Outcome::non_finite) return result;
-  Monodromy other = hill_monodromy(pool, equation, Method::arkode, options);
-  Monodromy& better = other.error < result.error ? other : result;
-  Monodromy& worse = &better == &other ? result : other;
+/// What comes closest: `by_splitting`, which did not reach the tolerance, or SUNDIALS.
+HillMonodromy better_monodromy(PropagatorPool& pool, const HillEquation& equation, HillMonodromy by_splitting,
+                               const MonodromyOptions& options) {
+  HillMonodromy other = hill_monodromy(pool, equation, Method::arkode, options);
+  HillMonodromy& better = other.error < by_splitting.error ? other : by_splitting;
+  HillMonodromy& worse = &better == &other ? by_splitting : other;
   better.cost += worse.cost;
   better.estimate_cost += worse.estimate_cost;
   return better;
+}
+
+bool ends_the_search(Outcome outcome) {
+  return outcome == Outcome::converged || outcome == Outcome::non_finite || outcome == Outcome::cancelled;
 }
 
 [[noreturn]] void refuse_exact() {
@@ -66,13 +68,33 @@ MonodromyEngine::~MonodromyEngine() = default;
 MonodromyEngine::MonodromyEngine(MonodromyEngine&&) noexcept = default;
 MonodromyEngine& MonodromyEngine::operator=(MonodromyEngine&&) noexcept = default;
 
-Monodromy MonodromyEngine::compute(const HillEquation& equation, const MonodromyOptions& options) {
-  equation.validate();
+HillMonodromy MonodromyEngine::compute(const HillEquation& equation, const MonodromyOptions& options) {
+  return std::move(compute(std::span(&equation, 1), options).front());
+}
+
+std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation> equations,
+                                                    const MonodromyOptions& options) {
   options.validate();
-  const Method method = method_for(equation, options.method);
-  if (options.method == Method::automatic && method == Method::propagator)
-    return automatic_hill_monodromy(*workspace_, equation, options);
-  return hill_monodromy(*workspace_, equation, method, options);
+  std::vector<HillMonodromy> results(equations.size());
+  std::vector<HillEquation> smooth;  // those that go side by side
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    equations[i].validate();
+    const Method method = method_for(equations[i], options.method);
+    if (method == Method::propagator) {
+      smooth.push_back(equations[i]);
+      places.push_back(i);
+    } else {
+      results[i] = hill_monodromy(*workspace_, equations[i], method, options);
+    }
+  }
+  auto found = splitting_monodromies(workspace_->splittings, smooth, options);
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    const bool done = options.method == Method::propagator || ends_the_search(found[j].outcome);
+    results[places[j]] =
+        done ? std::move(found[j]) : better_monodromy(*workspace_, smooth[j], std::move(found[j]), options);
+  }
+  return results;
 }
 
 Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const MonodromyOptions& options) {

@@ -1,7 +1,5 @@
 #include "floquet/propagators.hpp"
 
-#include <limits>
-
 namespace strutt {
 namespace {
 
@@ -16,14 +14,6 @@ constexpr double kSplittingShare = 0.2;
 
 }  // namespace
 
-void Propagators::append(Propagation&& step) {
-  if (outcome == Outcome::converged) outcome = step.outcome;
-  cost += step.cost;
-  estimate_cost += step.estimate_cost;
-  checks.push_back({std::move(step.check), {}});
-  factors.push_back(std::move(step.matrix));
-}
-
 PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order) {
   return {.local_tolerance = local_tolerance,
           .highest_frequency = static_cast<double>(highest_order),
@@ -36,15 +26,6 @@ ToleranceLadder tolerance_ladder(Method method, double tolerance) {
   if (method == Method::propagator) return {kSplittingShare * tolerance, kLowestSplittingTolerance};
   return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
           kLowestLocalTolerance};
-}
-
-void judge(Monodromy& result, double tolerance) {
-  if (result.outcome == Outcome::converged && !(result.error <= tolerance)) {
-    result.outcome = std::isfinite(result.error) ? Outcome::tolerance_not_reached : Outcome::non_finite;
-  }
-  if (result.outcome != Outcome::converged && result.outcome != Outcome::tolerance_not_reached) {
-    result.error = std::numeric_limits<double>::infinity();
-  }
 }
 
 }  // namespace strutt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,20 +24,37 @@ struct PropagatorPool {
   }
 };
 
-Monodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
+/// By Method::exact, arkode or cvode.
+HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
                          const MonodromyOptions& options);
+/// By Method::propagator, all at once.
+std::vector<HillMonodromy> splitting_monodromies(SplittingPropagators& tables,
+                                                 std::span<const HillEquation> equations,
+                                                 const MonodromyOptions& options);
 Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
                            const MonodromyOptions& options);
 
 /// Propagators of consecutive segments, and how their integration went.
+template <typename Matrix>
 struct Propagators {
-  std::vector<BoundedMatrix> factors;  // with the bounds of their rounding
-  std::vector<BoundedMatrix> checks;  // the same from the second runs, without bounds; empty for closed forms
+  std::vector<BasicBoundedMatrix<Matrix>> factors;  // with the bounds of their rounding
+  std::vector<BasicBoundedMatrix<Matrix>> checks;  // the same from the second runs, without bounds; empty for closed forms
   double truncation_share = kTruncationSafety;  // see add_truncation
   Outcome outcome = Outcome::converged;
   IntegrationCost cost, estimate_cost;
 
-  void append(Propagation&& step);
+  void append(Propagation&& step) {
+    if (outcome == Outcome::converged) outcome = step.outcome;
+    cost += step.cost;
+    estimate_cost += step.estimate_cost;
+    append({{std::move(step.matrix.value.mantissa), step.matrix.value.exponent}, std::move(step.matrix.error)},
+           {std::move(step.check.mantissa), step.check.exponent});
+  }
+
+  void append(BasicBoundedMatrix<Matrix>&& factor, BasicScaledMatrix<Matrix>&& check) {
+    factors.push_back(std::move(factor));
+    checks.push_back({.value = std::move(check)});
+  }
 };
 
 /// `highest_order`: of the harmonics of the equation.
@@ -44,14 +62,14 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
 
 /// The result of putting the factors together, with the truncation that the second runs, put together the
 /// same way, show.
-template <typename PutTogether>
-Monodromy combined(const Propagators& propagators, const PutTogether& put_together) {
-  Monodromy result = put_together(propagators.factors);
+template <typename Matrix, typename PutTogether>
+BasicMonodromy<Matrix> combined(const Propagators<Matrix>& propagators, const PutTogether& put_together) {
+  BasicMonodromy<Matrix> result = put_together(propagators.factors);
   result.cost = propagators.cost;
   result.estimate_cost = propagators.estimate_cost;
   result.outcome = propagators.outcome;
   if (!propagators.checks.empty()) {
-    const Monodromy check = put_together(propagators.checks);
+    const BasicMonodromy<Matrix> check = put_together(propagators.checks);
     add_truncation(result.matrix, check.matrix.value, propagators.truncation_share);
     add_truncation(result.undamped, check.undamped.value, propagators.truncation_share);
     if (result.half) add_truncation(*result.half, check.half->value, propagators.truncation_share);
@@ -67,14 +85,22 @@ ToleranceLadder tolerance_ladder(Method method, double tolerance);
 inline constexpr double kLadderStep = 0.01;
 
 /// How `result` ended, now that nothing tighter is tried.
-void judge(Monodromy& result, double tolerance);
+template <typename Matrix>
+void judge(BasicMonodromy<Matrix>& result, double tolerance) {
+  if (result.outcome == Outcome::converged && !(result.error <= tolerance)) {
+    result.outcome = std::isfinite(result.error) ? Outcome::tolerance_not_reached : Outcome::non_finite;
+  }
+  if (result.outcome != Outcome::converged && result.outcome != Outcome::tolerance_not_reached) {
+    result.error = std::numeric_limits<double>::infinity();
+  }
+}
 
 /// Runs attempt(local_tolerance) with tighter and tighter tolerances until the error is small enough.
 template <typename Attempt>
-Monodromy tighten(Method method, double tolerance, const Attempt& attempt) {
+auto tighten(Method method, double tolerance, const Attempt& attempt) {
   const ToleranceLadder ladder = tolerance_ladder(method, tolerance);
   double local = ladder.first;
-  Monodromy result = attempt(local);
+  auto result = attempt(local);
   while (result.outcome == Outcome::converged && result.error > tolerance && local > ladder.lowest) {
     local = std::max(kLadderStep * local, ladder.lowest);
     const auto spent = result.cost, spent_estimating = result.estimate_cost;

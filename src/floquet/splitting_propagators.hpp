@@ -1,6 +1,9 @@
 #pragma once
 
+#include <compare>
 #include <map>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "floquet/segments.hpp"
@@ -10,35 +13,47 @@
 
 namespace strutt {
 
+/// Y'' + W Y = 0 over a piece on which W is smooth, wanted with a truncation of about `tolerance`.
+struct SplittingJob {
+  PeriodicFunction w;
+  Segment piece;
+  double kappa = 1.0;
+  double coefficient_error = 0.0;  ///< bound of the relative error of W
+};
+
 /// The propagator of one smooth piece by a splitting, and the same with half the steps.
 struct SplittingPropagation {
-  BoundedMatrix matrix;  ///< state (Y, Y'/kappa); `error` bounds its rounding only
-  ScaledMatrix check;
+  BoundedMatrix2 matrix;  ///< state (Y, Y'/kappa); `error` bounds its rounding only
+  ScaledMatrix2 check;
   double truncation_share = 0.0;     ///< bound of the truncation as a share of |matrix - check|
   IntegrationCost cost, check_cost;  ///< no steps: the tolerance needs too many
 };
 
-/// Propagates one equation after the other; the tables of cosines are kept, since the cells of a chart share
-/// them.
+/// Propagates equations, those with the same steps and harmonics side by side in one batch. The tables of
+/// cosines are kept, since the cells of a chart share them. A result does not depend on the other jobs.
 class SplittingPropagators {
  public:
-  /// Y'' + W Y = 0 over a piece on which W is smooth, to a truncation of about `tolerance`.
-  /// `coefficient_error`: bound of the relative error of W. Without `with_check` the second run is left out.
-  SplittingPropagation propagate(const PeriodicFunction& w, const Segment& piece, double kappa,
-                                 double tolerance, double coefficient_error, bool with_check);
+  /// One result for each job. Without `with_check` the second run is left out.
+  std::vector<SplittingPropagation> propagate(std::span<const SplittingJob> jobs, double tolerance,
+                                              bool with_check);
 
  private:
-  /// Order, steps, ends, and the harmonics: positive the order of a cosine, negative that of a sine.
-  struct Key {
-    int order, steps;
-    double from, to;
+  /// What equations in one batch have in common. The harmonics: positive the order of a cosine, negative that
+  /// of a sine.
+  struct Group {
+    int order = 0, steps = 0;
+    double from = 0.0, to = 0.0;
     std::vector<int> harmonics;
-    auto operator<=>(const Key&) const = default;
+    auto operator<=>(const Group&) const = default;
   };
 
-  const HillPropagator& table(Key key);
+  HillStepPlan plan(const SplittingJob& job, double tolerance);
+  const HillPropagator& table(const Group& group);
+  void run(const Group& group, std::span<const SplittingJob> jobs, std::span<const std::size_t> members,
+           bool with_check, std::vector<SplittingPropagation>& results);
 
-  std::map<Key, HillPropagator> tables_;
+  std::map<std::tuple<int, double, double>, HillStepPlanner> planners_;  // highest order, length, tolerance
+  std::map<Group, HillPropagator> tables_;
 };
 
 }  // namespace strutt

@@ -17,7 +17,8 @@ constexpr double kLn2 = std::numbers::ln2;
 constexpr double kLn2Tail = 2.3190468138462996e-17;
 
 /// Writes matrix, trace and multipliers, all divided by one exp(log_scale) if the largest of them would pass 1e300.
-void write_matrix(Stability& result, const Monodromy& monodromy, const std::vector<Multiplier>& multipliers) {
+template <typename Matrix>
+void write_matrix(Stability& result, const BasicMonodromy<Matrix>& monodromy, const std::vector<Multiplier>& multipliers) {
   const auto& m = monodromy.matrix.value;
   const Eigen::Index n = m.mantissa.rows(), d = n / 2;
   Eigen::MatrixXd matrix = m.mantissa;  // (q, q'/kappa) -> (q, q')
@@ -41,7 +42,8 @@ void write_matrix(Stability& result, const Monodromy& monodromy, const std::vect
   }
 }
 
-Stability begin(const Monodromy& monodromy) {
+template <typename Matrix>
+Stability begin(const BasicMonodromy<Matrix>& monodromy) {
   Stability result;
   result.error = monodromy.error;
   result.method = monodromy.method;
@@ -51,7 +53,13 @@ Stability begin(const Monodromy& monodromy) {
   return result;
 }
 
-bool has_value(const Monodromy& monodromy) {
+/// x'' + c x' = 0: constants are solutions, the multipliers 1 and exp(-cT).
+bool has_no_force(const HillEquation& equation) {
+  return equation.coefficient.is_constant() && equation.coefficient.mean() == 0.0;
+}
+
+template <typename Matrix>
+bool has_value(const BasicMonodromy<Matrix>& monodromy) {
   return monodromy.outcome == Outcome::converged || monodromy.outcome == Outcome::tolerance_not_reached;
 }
 
@@ -65,13 +73,15 @@ void finish(Stability& result, const Margin& margin, double growth, double perio
 
 }  // namespace
 
-Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts) {
+Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts) {
   const double period = equation.period();
   auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;
   const auto discriminant = discriminant_gap(monodromy);
   const double h = monodromy.half_damping;
-  finish(result, hill_margin(discriminant, h), hill_growth(discriminant, h), period);
+  const bool marginal = has_no_force(equation);
+  finish(result, marginal ? Margin{0.0, 0.0} : hill_margin(discriminant, h),
+         marginal ? 0.0 : hill_growth(discriminant, h), period);
   if (parts.winding) {
     const double c = equation.canonical_damping();
     result.winding = winding_number(equation.coefficient.plus(-0.25 * c * c), monodromy.undamped, discriminant,
@@ -111,9 +121,14 @@ std::optional<HillEquation> as_hill_equation(const LinearPeriodicSystem& system)
                          h.sine.size() > 0 ? h.sine(0, 0) / mass : 0.0});
   }
   const auto w = PeriodicFunction::fourier(system.stiffness.mean(0, 0) / mass, std::move(harmonics));
-  HillEquation equation = hill_equation(system.period, w, *c);
-  equation.plain_kappa = true;
-  return equation;
+  try {
+    HillEquation equation = hill_equation(system.period, w, *c);
+    equation.validate();
+    equation.plain_kappa = true;
+    return equation;
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // beyond double in canonical time: to a system that is an outcome
+  }
 }
 
 Method method_for(const LinearModel& model, Method asked) {
@@ -125,12 +140,29 @@ Method method_for(const LinearModel& model, Method asked) {
 
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options,
                   const StabilityParts& parts) {
-  if (const auto* equation = std::get_if<HillEquation>(&model)) {
-    return assess(*equation, engine.compute(*equation, options), parts);
+  return std::move(analyse(engine, std::span(&model, 1), options, parts).front());
+}
+
+std::vector<Stability> analyse(MonodromyEngine& engine, std::span<const LinearModel> models,
+                               const MonodromyOptions& options, const StabilityParts& parts) {
+  std::vector<Stability> results(models.size());
+  std::vector<HillEquation> equations;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto* system = std::get_if<LinearPeriodicSystem>(&models[i]);
+    auto equation = system != nullptr ? as_hill_equation(*system) : std::get<HillEquation>(models[i]);
+    if (equation) {
+      equations.push_back(*std::move(equation));
+      places.push_back(i);
+    } else {
+      results[i] = assess(*system, engine.compute(*system, options), parts);
+    }
   }
-  const auto& system = std::get<LinearPeriodicSystem>(model);
-  if (const auto equation = as_hill_equation(system)) return assess(*equation, engine.compute(*equation, options), parts);
-  return assess(system, engine.compute(system, options), parts);
+  const auto monodromies = engine.compute(equations, options);
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    results[places[j]] = assess(equations[j], monodromies[j], parts);
+  }
+  return results;
 }
 
 }  // namespace strutt

@@ -91,14 +91,14 @@ Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& sys
   const double rate = y.radians_per_phase();
   const double coefficient_error = (16.0 + 2.0 * pi * highest) * kUnit;
   const double needed = std::max(std::ceil(2.0 * pi * rate / kRadians), 1.0);
-  if (!(needed <= kMostSegments)) return without_result(method, Outcome::step_limit);
+  if (!(needed <= kMostSegments)) return without_result<Eigen::MatrixXd>(method, Outcome::step_limit);
   const auto parts = static_cast<int>(needed);
 
   const RightHandSide f = [&](double theta, StateView state, StateOut dydt) {
     y.derivative(theta, state, dydt);
   };
   Monodromy result = tighten(method, options.tolerance, [&](double local_tolerance) {
-    Propagators propagators;
+    Propagators<Eigen::MatrixXd> propagators;
     auto& integrator = pool.integrator(n, method);
     for (int j = 0; j < parts; ++j) {
       const double from = 2.0 * pi * j / parts, to = 2.0 * pi * (j + 1) / parts;

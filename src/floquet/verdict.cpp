@@ -29,7 +29,7 @@ Bounded product(Bounded a, Bounded b) {
   return {p, std::abs(a.value) * b.error + a.error * std::abs(b.value) + a.error * b.error + 2.0 * kUnit * std::abs(p)};
 }
 
-Bounded entry(const BoundedMatrix& m, int i, int j) { return {m.value.mantissa(i, j), m.error(i, j)}; }
+Bounded entry(const BoundedMatrix2& m, int i, int j) { return {m.value.mantissa(i, j), m.error(i, j)}; }
 
 DiscriminantGap from_trace(Bounded trace, long exponent) {
   DiscriminantGap d;
@@ -54,7 +54,7 @@ DiscriminantGap from_factors(Bounded u1, Bounded u2, Bounded du1, Bounded du2, l
   return d;
 }
 
-DiscriminantGap from_period(const BoundedMatrix& m) {
+DiscriminantGap from_period(const BoundedMatrix2& m) {
   const Bounded a = entry(m, 0, 0), d = entry(m, 1, 1);
   auto result = from_trace({a.value + d.value, a.error + d.error + kUnit * std::abs(a.value + d.value)}, m.value.exponent);
   const Bounded half_difference{0.5 * (a.value - d.value), 0.5 * (a.error + d.error)};
@@ -89,7 +89,7 @@ Verdict verdict_of(const Margin& margin) {
   return margin.value > 0.0 ? Verdict::stable : Verdict::unstable;
 }
 
-DiscriminantGap discriminant_gap(const Monodromy& monodromy) {
+DiscriminantGap discriminant_gap(const HillMonodromy& monodromy) {
   if (!monodromy.half) return from_period(monodromy.undamped);
   const auto& half = *monodromy.half;
   return from_factors(entry(half, 0, 0), entry(half, 0, 1), entry(half, 1, 0), entry(half, 1, 1),
@@ -109,7 +109,7 @@ Margin hill_margin(const DiscriminantGap& d, double half_damping) {
     const double error = d.log_abs_error + 4.0 * kUnit * (h + std::abs(d.log_abs));
     return {-std::expm1(log_ratio), std::exp(log_ratio) * std::expm1(error) + 2.0 * kUnit};
   }
-  if (h == 0.0) return {0.5 * d.gap, 0.5 * d.gap_error};
+  if (h == 0.0) return {0.0 + 0.5 * d.gap, 0.5 * d.gap_error};  // not -0
   const double half_sinh = std::sinh(0.5 * h), two_cosh = 2.0 * std::cosh(h);
   const double allowance = 4.0 * half_sinh * half_sinh;  // 2 cosh h - 2
   const double h_error = 4.0 * kUnit * h;

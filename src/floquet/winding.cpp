@@ -10,7 +10,7 @@ namespace strutt {
 
 using std::numbers::pi;
 
-double winding_number(const PeriodicFunction& w, const BoundedMatrix& undamped, const DiscriminantGap& d,
+double winding_number(const PeriodicFunction& w, const BoundedMatrix2& undamped, const DiscriminantGap& d,
                       double kappa) {
   const auto& n = undamped.value.mantissa;
   const double half_turns = lifted_angle(w, 2.0 * pi, n(0, 1), n(1, 1), kappa) / pi;

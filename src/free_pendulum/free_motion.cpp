@@ -16,6 +16,7 @@ constexpr double kUnit = 0x1p-53;
 // Relative error of what is computed in twice the working precision, with reserve.
 constexpr double kDouble = 0x1p-97;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const DoubleDouble kTwoPi = ldexp(kPi, 1);
 
@@ -52,7 +53,7 @@ struct FreeMotion::Orbit {
   void prepare_rotation();
   FreeState local_state(DoubleDouble tau) const;
   FreeState libration_state(DoubleDouble turns) const;
-  FreeState rotation_state(DoubleDouble turns, double& revolutions) const;
+  FreeState rotation_state(DoubleDouble turns, DoubleDouble& revolutions) const;
   FreeState separatrix_state(DoubleDouble tau) const;
   double exact_error(DoubleDouble tau) const;
 };
@@ -101,11 +102,11 @@ FreeState FreeMotion::Orbit::libration_state(DoubleDouble turns) const {
   return {2.0 * std::atan2((k * a.sn).hi, a.dn.hi), (start.reach * a.cn).hi, 0.0};
 }
 
-FreeState FreeMotion::Orbit::rotation_state(DoubleDouble turns, double& revolutions) const {
+FreeState FreeMotion::Orbit::rotation_state(DoubleDouble turns, DoubleDouble& revolutions) const {
   // Beyond 2^53 turns the low part holds whole turns, too.
   const double high = std::round(turns.hi), low = std::round((turns - DoubleDouble(high)).hi);
   const auto a = agm->amplitude((turns - DoubleDouble(high)) - DoubleDouble(low));
-  revolutions = 2.0 * (high + low);
+  revolutions = ldexp(DoubleDouble(high) + DoubleDouble(low), 1);
   return {2.0 * std::atan2(a.sn.hi, a.cn.hi), (start.reach * a.dn).hi, 0.0};
 }
 
@@ -133,7 +134,7 @@ double FreeMotion::Orbit::exact_error(DoubleDouble tau) const {
 
 FreeState FreeMotion::Orbit::local_state(DoubleDouble tau) const {
   FreeState state;
-  double revolutions = 0.0;
+  DoubleDouble revolutions = 0.0;
   if (kind == MotionKind::libration) {
     const DoubleDouble turns = phase + tau * rate;
     const double high = std::round(turns.hi), low = std::round((turns - DoubleDouble(high)).hi);
@@ -141,7 +142,7 @@ FreeState FreeMotion::Orbit::local_state(DoubleDouble tau) const {
   }
   if (kind == MotionKind::rotation) state = rotation_state(phase + tau * rate, revolutions);
   if (kind == MotionKind::separatrix) state = separatrix_state(phase + tau);
-  const DoubleDouble whole = kTwoPi * (DoubleDouble(start.turns) + DoubleDouble(sign * revolutions));
+  const DoubleDouble whole = kTwoPi * (DoubleDouble(start.turns) + DoubleDouble(sign) * revolutions);
   const double local = sign * state.angle;
   state.angle = (whole + DoubleDouble(local)).hi;
   state.velocity *= sign;
@@ -170,7 +171,7 @@ FreeState FreeMotion::at(double t) const {
   const DoubleDouble tau = orbit_->alpha * DoubleDouble(t);
   // The phase itself must be finite.
   if (!std::isfinite((tau * DoubleDouble(std::max(1.0, orbit_->start.reach.hi))).hi))
-    return {0.0, 0.0, kInfinity};
+    return {kNaN, kNaN, kInfinity};
   FreeState state = orbit_->local_state(tau);
   state.velocity *= orbit_->alpha.hi;
   return state;

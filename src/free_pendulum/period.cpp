@@ -1,5 +1,6 @@
 #include "strutt/free_pendulum/period.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -22,15 +23,22 @@ const DoubleDouble kTwoPi = ldexp(kPi, 1);
 DoubleDouble sum_of(const Eigenfrequency& alpha) { return {alpha.value, alpha.rest}; }
 
 /// `ratio_error` is relative.
+/// Relative error of a number whose last parts may lie below the subnormal doubles; 4 for 0.
+double underflow_error(double value) {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  return value < 1e-290 ? 4.0 * kLeast / std::max(value, kLeast) : 0.0;
+}
+
 Period period_of(double ratio, double ratio_error, const Eigenfrequency& alpha) {
   alpha.validate();
   if (std::isinf(ratio)) return {ratio, ratio, ratio, 0.0, PeriodMethod::separatrix};
   double period = (DoubleDouble(ratio) * kTwoPi / sum_of(alpha)).hi;
   if (!std::isfinite(period)) period = std::numeric_limits<double>::infinity();  // alpha below 1e-307
-  return {ratio, period, 0.25 * period, ratio_error + kRounded, PeriodMethod::elliptic};
+  return {ratio, period, 0.25 * period, ratio_error + kRounded + underflow_error(0.25 * period),
+          PeriodMethod::elliptic};
 }
 
-BoundedNumber rounded(DoubleDouble value) { return {value.hi, kRounded}; }
+BoundedNumber rounded(DoubleDouble value) { return {value.hi, kRounded + underflow_error(value.hi)}; }
 
 /// sqrt(4 + E).
 DoubleDouble bottom_velocity(double excess) { return sqrt(two_sum(4.0, excess)); }
@@ -125,12 +133,33 @@ LibrationOfPeriod libration_of_period_ratio(double ratio) {
   return {2.0 * atan2(k, k_prime).hi, 2.0 * atan2(k_prime, k).hi, kError};
 }
 
+namespace {
+
+constexpr double kShort = 1e-150;
+
+/// Time to an angle below kShort, passed with the velocity at the bottom: F(psi) = psi. Scaled, so that no
+/// low part underflows.
+BoundedNumber short_flight(double angle, DoubleDouble bottom, const Eigenfrequency& alpha) {
+  constexpr int kScale = 500;
+  const DoubleDouble scaled = std::ldexp(angle, kScale);
+  return rounded(ldexp(scaled / bottom / sum_of(alpha), -kScale));
+}
+
+}  // namespace
+
 BoundedNumber libration_time_of_flight(double amplitude, double angle, const Eigenfrequency& alpha) {
   check_amplitude(amplitude);
   require(angle >= 0.0 && angle <= amplitude, "angle", angle, "from 0 to the amplitude");
   alpha.validate();
   if (angle == 0.0) return {0.0, 0.0};
-  const AgmSteps agm(1.0, sin_cos(0.5 * amplitude).cosine);
+  constexpr double kSmall = 1e-100;
+  if (amplitude < kSmall) {  // no matter how small: the oscillation is harmonic
+    const int scale = -std::ilogb(amplitude) - 300;
+    return libration_time_of_flight(std::ldexp(amplitude, scale), std::ldexp(angle, scale), alpha);
+  }
+  const auto turning = sin_cos(0.5 * amplitude);
+  if (angle < kShort) return short_flight(angle, ldexp(turning.sine, 1), alpha);
+  const AgmSteps agm(1.0, turning.cosine);
   // sin^2(A/2) - sin^2(phi/2) = sin((A - phi)/2) sin((A + phi)/2)
   const DoubleDouble below = sin_cos(ldexp(two_sum(amplitude, -angle), -1)).sine;
   const DoubleDouble above = sin_cos(ldexp(two_sum(amplitude, angle), -1)).sine;
@@ -146,6 +175,7 @@ BoundedNumber rotation_time_of_flight(double separatrix_excess, double angle, co
   alpha.validate();
   if (angle == 0.0) return {0.0, 0.0};
   const DoubleDouble bottom = bottom_velocity(e);
+  if (angle < kShort) return short_flight(angle, bottom, alpha);
   const AgmSteps agm(1.0, sqrt(DoubleDouble(e)) / bottom);
   const auto [count, half] = half_turns(0.5 * angle);
   const double sign = half.sine.hi < 0.0 ? -1.0 : 1.0;

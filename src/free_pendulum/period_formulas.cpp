@@ -117,17 +117,19 @@ double relative_error(PeriodMethod formula, const Libration& orbit) {
 
 double ratio_of(PeriodMethod formula, double amplitude) {
   if (formula == PeriodMethod::series) return series_ratio(amplitude);
-  if (formula == PeriodMethod::normal_form) return 1.0 / std::fma(-amplitude / 16.0, amplitude, 1.0);
+  if (formula == PeriodMethod::normal_form) return 1.0 / ((1.0 - amplitude / 4.0) * (1.0 + amplitude / 4.0));
   return krylov_period_ratio(
       formula == PeriodMethod::krylov ? KrylovVariant::frequency : KrylovVariant::frequency_squared,
       amplitude);
 }
 
+bool has_meaning(PeriodMethod formula, double amplitude) {
+  return amplitude < krylov_limit(formula == PeriodMethod::krylov_squared ? KrylovVariant::frequency_squared
+                                                                          : KrylovVariant::frequency);
+}
+
 FormulaError formula_of(PeriodMethod formula, const Libration& orbit) {
-  const bool meant = orbit.amplitude.hi < krylov_limit(formula == PeriodMethod::krylov_squared
-                                                           ? KrylovVariant::frequency_squared
-                                                           : KrylovVariant::frequency);
-  if (!meant) return {kNaN, kNaN};
+  if (!has_meaning(formula, orbit.amplitude.hi)) return {kNaN, kNaN};
   return {ratio_of(formula, orbit.amplitude.hi), relative_error(formula, orbit)};
 }
 
@@ -177,6 +179,12 @@ Peak peak_of_31() {
 
 }  // namespace
 
+double formula_ratio(PeriodMethod formula, double amplitude) {
+  check_formula(formula);
+  require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
+  return has_meaning(formula, amplitude) ? ratio_of(formula, amplitude) : kNaN;
+}
+
 FormulaError formula_of_amplitude(PeriodMethod formula, double amplitude) {
   check_formula(formula);
   require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
@@ -223,6 +231,12 @@ PeriodMethod CheapestPeriod::method(double amplitude) const {
   for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
     if (amplitude <= reach_[i]) return kPeriodFormulas[i];
   return PeriodMethod::elliptic;
+}
+
+double CheapestPeriod::ratio(double amplitude) const {
+  require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
+  const PeriodMethod chosen = method(amplitude);
+  return chosen == PeriodMethod::elliptic ? period_ratio(amplitude) : ratio_of(chosen, amplitude);
 }
 
 namespace {

@@ -15,60 +15,62 @@ constexpr double kUnit = 0x1p-53;
 // Beyond these products of step and frequency, of the solution and of the coefficient, the error of half the
 // steps says nothing of that of all.
 constexpr double kLargestStep = 0.7;
-constexpr double kLargestWaveStep = 1.2;
+constexpr double kLargestWaveStep = 0.45;
 constexpr double kShareOfOrder = 0.7;
-constexpr int kMidpoints = 16;  // of the integral in the error formula, per harmonic
 constexpr double kHalvingSafety = 16.0;
 
-/// The steps are rounded up to a few values per octave, so that many cells share a table.
-int rounded_up(double steps) {
-  for (int octave = 16;; octave *= 2) {
-    for (const int eighths : {4, 5, 6, 7, 8}) {
-      const int candidate = octave * eighths / 8;
-      if (candidate % 2 == 0 && candidate >= steps) return candidate;
+/// Few numbers of steps, all even, so that many cells share a table: four an octave.
+std::vector<int> step_ladder() {
+  std::vector<int> result;
+  for (int octave = 8; octave <= kMostHillSteps; octave *= 2) {
+    for (const int quarters : {4, 5, 6, 7}) {
+      const int steps = octave * quarters / 4;
+      if (steps <= kMostHillSteps) result.push_back(steps);
     }
   }
+  return result;
 }
 
-/// |W| at the middles of equal parts of the piece.
-std::vector<double> sampled_size(const PeriodicFunction& w, double from, double to) {
-  const int points = w.is_constant() ? 1 : kMidpoints * w.highest_order();
-  std::vector<double> size;
-  for (int j = 0; j < points; ++j) size.push_back(std::abs(w(std::lerp(from, to, (j + 0.5) / points))));
-  return size;
-}
-
-/// Integral of |W| (sqrt|W| + k)^(p-1), by the midpoint rule.
-double error_integral(const std::vector<double>& size, double k, double length, int order) {
-  double sum = 0.0;
-  for (const double value : size) {
-    const double base = std::sqrt(value) + k;
-    double term = value;
-    for (int i = 1; i < order; ++i) term *= base;
-    sum += term;
+/// The largest bound B of |W| that steps of length h serve.
+double largest_bound(double h, double k, double length, int order, double tolerance) {
+  if (h * k > kShareOfOrder * kLargestWaveStep) return -1.0;
+  const double allowed = tolerance / (detail::splitting(order).error_constant * std::pow(h, order) * length);
+  const double root = kLargestStep / h;  // of the largest B whatever the tolerance
+  double low = 0.0, high = root;         // of sqrt B, by bisection: the error grows with it
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (middle * middle * std::pow(middle + k, order - 1) <= allowed ? low : high) = middle;
   }
-  return sum * length / static_cast<double>(size.size());
-}
-
-std::size_t stages_of(const HillStepPlan& plan) {
-  return static_cast<std::size_t>(plan.steps) * detail::splitting(plan.order).drifts.size();
+  return low * low;
 }
 
 }  // namespace
 
-HillStepPlan plan_hill_steps(const PeriodicFunction& w, double from, double to, double tolerance) {
-  const auto size = sampled_size(w, from, to);
-  const double k = kShareOfOrder * w.highest_order(), length = to - from;
-  const double largest = std::min(kLargestStep / std::sqrt(std::max(w.bound(), 1e-300)),
-                                  kLargestWaveStep / std::max(w.highest_order(), 1));
-  HillStepPlan best;
-  for (const int order : {6, 4}) {
-    const double scale = detail::splitting(order).error_constant * error_integral(size, k, length, order);
-    const double steps = length / std::min(std::pow(tolerance / scale, 1.0 / order), largest);
-    const HillStepPlan plan{order, steps <= kMostHillSteps ? rounded_up(steps) : 0};
-    if (plan.steps > 0 && (best.steps == 0 || stages_of(plan) < stages_of(best))) best = plan;
+HillStepPlanner::HillStepPlanner(int highest_order, double length, double tolerance) {
+  struct Row {
+    HillStepPlan plan;
+    double cost, limit;
+  };
+  const double k = kShareOfOrder * highest_order;
+  std::vector<Row> rows;
+  for (const int steps : step_ladder()) {
+    for (const int order : {6, 4}) {
+      const auto stages = static_cast<double>(detail::splitting(order).drifts.size());
+      rows.push_back({{order, steps}, steps * stages, largest_bound(length / steps, k, length, order, tolerance)});
+    }
   }
-  return best;
+  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.cost < b.cost; });
+  for (const auto& row : rows) {
+    if (row.limit < 0.0 || (!limits_.empty() && row.limit <= limits_.back())) continue;
+    limits_.push_back(row.limit);
+    plans_.push_back(row.plan);
+  }
+}
+
+HillStepPlan HillStepPlanner::plan(double bound) const {
+  const auto found = std::lower_bound(limits_.begin(), limits_.end(), bound) - limits_.begin();
+  if (found == static_cast<std::ptrdiff_t>(limits_.size())) return {};
+  return plans_[static_cast<std::size_t>(found)];
 }
 
 double halving_share(int order) { return kHalvingSafety / (std::exp2(order) - 1.0); }

@@ -44,11 +44,14 @@ IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wante
 
 }  // namespace
 
-void add_truncation(BoundedMatrix& matrix, const ScaledMatrix& check, double share) {
-  const int shift = static_cast<int>(std::clamp(check.exponent - matrix.value.exponent, -5000L, 5000L));
-  const Eigen::MatrixXd same_scale = check.mantissa.unaryExpr([shift](double x) { return std::ldexp(x, shift); });
+template <typename Matrix>
+void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check, double share) {
+  const Matrix same_scale = times_power_of_two(check.mantissa, check.exponent - matrix.value.exponent);
   matrix.error.array() += share * (matrix.value.mantissa - same_scale).cwiseAbs().maxCoeff();
 }
+
+template void add_truncation(BoundedMatrix&, const ScaledMatrix&, double);
+template void add_truncation(BoundedMatrix2&, const ScaledMatrix2&, double);
 
 LinearPropagator::LinearPropagator(int states, Backend backend)
     : states_(states),

@@ -56,7 +56,7 @@ std::string error_lines(int column, const char* colour) {
 std::string error_panel(const Decades& decades) {
   return fmt::format(
       "set title 'Error of the formulas'\n"
-      "set ylabel '|formula/exact \u2212 1|, dashed: formula too small'\n"
+      "set ylabel '|formula/exact \u2212 1|, dashed: formula too small' offset 0,0\n"
       "set lmargin at screen 0.59\nset rmargin at screen 0.985\nset logscale y\nset ytics 10\nset mytics "
       "1\nset yrange [1e{}:1e{}]\n"
       "set format y '10^{{%T}}'\nset minussign\nplot {}, {}\n",

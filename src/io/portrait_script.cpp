@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kPictureWidth = 1600.0, kPictureHeight = 1100.0;
-constexpr double kLeft = 0.085, kBottom = 0.17, kBottomWithoutKey = 0.11, kTop = 0.935;
+constexpr double kLeastLeft = 0.085, kBottom = 0.17, kBottomWithoutKey = 0.11, kTop = 0.935;
 constexpr double kRight = 0.975, kRightOfBar = 0.865;
 constexpr double kHeadroom = 1.06;
 constexpr int kArrowColumns = 33, kArrowRows = 21;
@@ -73,16 +73,32 @@ std::string angle_ticks(int cells) {
   return ticks;
 }
 
-std::string velocity_ticks(double largest) {
-  const Axis axis{.parameter = "velocity", .from = -largest, .to = largest, .points = 2};
-  std::string ticks;
-  for (const auto& tick : axis_ticks(axis)) {
-    const bool negative = tick.label.starts_with('-');
-    const std::string label = negative ? kMinus + tick.label.substr(1) : tick.label;
-    ticks += fmt::format("{}{} {:.9g} {}", ticks.empty() ? "" : ", ", gnuplot_string(label),
-                         std::lerp(-largest, largest, tick.position), tick.label.empty() ? 1 : 0);
+std::vector<Tick> velocity_ticks(double largest) {
+  auto ticks = axis_ticks({.parameter = "velocity", .from = -largest, .to = largest, .points = 2});
+  for (auto& tick : ticks) {
+    if (tick.label.starts_with('-')) tick.label = kMinus + tick.label.substr(1);
   }
   return ticks;
+}
+
+std::string tick_list(const std::vector<Tick>& ticks, double largest) {
+  std::string list;
+  for (const auto& tick : ticks) {
+    list += fmt::format("{}{} {:.9g} {}", list.empty() ? "" : ", ", gnuplot_string(tick.label),
+                        std::lerp(-largest, largest, tick.position), tick.label.empty() ? 1 : 0);
+  }
+  return list;
+}
+
+/// Left edge of the plot: room for the widest label of the velocity axis and for the title beside it.
+double left(double largest) {
+  std::ptrdiff_t widest = 0;
+  for (const auto& tick : velocity_ticks(largest)) {
+    widest = std::max(widest, std::count_if(tick.label.begin(), tick.label.end(), [](unsigned char c) {
+                        return (c & 0xC0U) != 0x80U && c != '^' && c != '{' && c != '}';  // seen, in UTF-8
+                      }));
+  }
+  return std::max(kLeastLeft, 0.052 + 0.011 * static_cast<double>(widest));
 }
 
 std::string frame(const std::vector<PhaseCurve>& curves, const PortraitDescription& d, FigureFormat format) {
@@ -97,9 +113,10 @@ std::string frame(const std::vector<PhaseCurve>& curves, const PortraitDescripti
       "({})\n"
       "set xlabel 'angle \u03C6 from the hanging position [rad]'\nset ylabel \"angular velocity "
       "\u03C6'{}\"\n",
-      gnuplot_terminal(format), kPictureFile, gnuplot_string(d.title), kLeft, right(curves), bottom(curves),
-      kTop, (kLeft + right(curves)) / 2.0, -d.cells, d.cells, -largest, largest, angle_ticks(d.cells),
-      velocity_ticks(largest), d.has_units ? " [rad/s]" : "/\u03B1");
+      gnuplot_terminal(format), kPictureFile, gnuplot_string(d.title), left(largest), right(curves),
+      bottom(curves), kTop, (left(largest) + right(curves)) / 2.0, -d.cells, d.cells, -largest, largest,
+      angle_ticks(d.cells), tick_list(velocity_ticks(largest), largest),
+      d.has_units ? " [rad/s]" : "/\u03B1");
 }
 
 std::string colour_bar() {
@@ -164,8 +181,8 @@ std::string portrait_data(const std::vector<PhaseCurve>& curves, CurveKind kind)
 std::string arrow_data(const std::vector<PhaseCurve>& curves, const PortraitDescription& d) {
   if (!has_field(curves)) return {};
   const double largest = largest_velocity(curves, d.alpha);
-  const double per_x = 2.0 * d.cells / ((kRight - kLeft) * kPictureWidth);   // pi a pixel
-  const double per_y = 2.0 * largest / ((kTop - kBottom) * kPictureHeight);  // rad/s a pixel
+  const double per_x = 2.0 * d.cells / ((kRight - left(largest)) * kPictureWidth);  // pi a pixel
+  const double per_y = 2.0 * largest / ((kTop - kBottom) * kPictureHeight);         // rad/s a pixel
   std::string text;
   for (int j = 0; j < kArrowRows; ++j) {
     for (int i = 0; i < kArrowColumns; ++i) {

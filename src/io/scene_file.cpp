@@ -20,6 +20,22 @@ namespace {
   document.fail(*best, message);
 }
 
+/// Values that are each in their range can still make no equation together: a length of 1e-300 m, a frequency of
+/// 1e-300 rad/s. The table that they stand in is named.
+void check_equation(const TomlDocument& document, const Scene& scene) {
+  const auto check = [&](const std::string& table, const auto& make) {
+    try {
+      make();
+    } catch (const InvalidInput& error) {
+      document.fail(*document.root().get(table), "[" + table + "]: " + error.what());
+    }
+  };
+  if (scene.pendulum) check("pendulum", [&] { pendulum(scene).validate(); });
+  const char* pendulum_table = scene.support ? "support" : "pendulum";
+  check(scene.mathieu ? "mathieu" : scene.hill ? "hill" : scene.linear ? "linear" : pendulum_table,
+        [&] { (void)linear_model(scene); });
+}
+
 }  // namespace
 
 SceneFile parse_scene(std::string_view text, const std::string& name) {
@@ -33,6 +49,7 @@ SceneFile parse_scene(std::string_view text, const std::string& name) {
   } catch (const InvalidInput& error) {
     fail_located(document, error.what());
   }
+  check_equation(document, result.scene);
   if (const auto* chart = document.root().get("chart")) {
     result.chart = read_chart_table(document, *chart, result.scene);
   }

@@ -202,7 +202,7 @@ void check_tables(const TomlDocument& document) {
     const std::string close = nearest(key.str(), known);
     std::string what = node.is_table() ? "unknown table [" : "unknown key '";
     what += printable(key.str()) + (node.is_table() ? "]" : "' outside the tables");
-    if (!close.empty()) what += "; did you mean [" + close + "]?";
+    what += close.empty() ? "; the tables are " + quoted_list(known) : "; did you mean [" + close + "]?";
     document.fail(key.source(), what);
   }
   std::string model;

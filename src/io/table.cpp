@@ -16,14 +16,9 @@ std::string located(const std::string& file, int line, int column, const std::st
   return result + ": " + what;
 }
 
-std::string quoted_list(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 12;
-  std::string result;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) {
-    result += (i == 0 ? "'" : ", '") + printable(names[i]) + "'";
-  }
-  if (names.size() > most) result += ", ... (" + std::to_string(names.size()) + " in all)";
-  return result;
+std::string printable_list(std::vector<std::string> names) {
+  for (auto& name : names) name = printable(name);
+  return quoted_list(names);
 }
 
 /// A column as its header describes it.
@@ -61,11 +56,7 @@ void check_name(const CsvReader& reader, const CsvCell& cell, const std::string&
   if (name.empty()) reader.fail(cell, "a column has no name");
   if (contains(seen, name)) reader.fail(cell, "the column '" + printable(name) + "' stands here a second time");
   if (contains(known, name)) return;
-  const std::string close = nearest(name, known);
-  std::string text = "unknown column '" + printable(name) + "'";
-  if (!close.empty()) text += "; did you mean '" + close + "'?";
-  else if (!known.empty()) text += "; known are " + quoted_list(known);
-  reader.fail(cell, text);
+  reader.fail(cell, "unknown column '" + printable(name) + "'" + suggestion(name, known));
 }
 
 /// A decimal number, checked before, in the unit of its column.
@@ -90,7 +81,7 @@ std::vector<Header> read_header(CsvReader& reader, const TableSchema& schema) {
   }
   for (const auto& name : schema.required) {
     if (!contains(names, name)) {
-      reader.fail(cells.front(), "the column '" + name + "' is missing; the columns are " + quoted_list(names));
+      reader.fail(cells.front(), "the column '" + name + "' is missing; the columns are " + printable_list(names));
     }
   }
   return headers;
@@ -128,7 +119,7 @@ FileError::FileError(const std::string& file, int line, int column, const std::s
 std::size_t NumericTable::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
-  throw FileError(file, 0, 0, "there is no column '" + printable(name) + "'; the columns are " + quoted_list(columns));
+  throw FileError(file, 0, 0, "there is no column '" + printable(name) + "'; the columns are " + printable_list(columns));
 }
 
 FileError NumericTable::error_at(std::size_t row, std::size_t column, const std::string& what) const {

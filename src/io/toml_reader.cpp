@@ -143,10 +143,8 @@ void TomlTable::allow_only(const std::vector<std::string>& known) const {
     if (first == nullptr || position(key) < position(*first)) first = &key;
   }
   if (first == nullptr) return;
-  const std::string close = nearest(first->str(), known);
-  std::string what = "unknown key " + in_quotes(first->str()) + " in [" + path_ + "]";
-  if (!close.empty()) what += "; did you mean " + in_quotes(close) + "?";
-  document_->fail(first->source(), what);
+  document_->fail(first->source(),
+                  "unknown key " + in_quotes(first->str()) + " in [" + path_ + "]" + suggestion(first->str(), known));
 }
 
 void TomlTable::exclude(std::string_view a, std::string_view b) const {

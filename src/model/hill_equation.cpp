@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "strutt/base/error.hpp"
@@ -43,8 +44,12 @@ HillEquation mathieu_a_q(double a, double q, double damping) {
 HillEquation hill_equation(double period, const PeriodicFunction& w, double damping) {
   require(period > 0.0 && std::isfinite(period), "period", period, "a finite number > 0");
   const double unit = period / (2.0 * std::numbers::pi);  // of canonical time
+  auto canonical = w.scaled(unit * unit);
+  if (w.mean() != 0.0 && canonical.mean() == 0.0) {  // an underflow must not prove that the mean is 0
+    canonical = canonical.plus(std::copysign(std::numeric_limits<double>::denorm_min(), w.mean()));
+  }
   // roundings: pi, the quotient and the square count twice each, the product once
-  return {1.0 / unit, damping, w.scaled(unit * unit), 8.0 * 0x1p-53};
+  return {1.0 / unit, damping, canonical, 8.0 * 0x1p-53};
 }
 
 }  // namespace strutt

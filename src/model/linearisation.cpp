@@ -1,6 +1,8 @@
 #include "strutt/model/linearisation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "strutt/base/error.hpp"
 
@@ -27,9 +29,11 @@ LinearisedPendulum linearise(const PhysicalPendulum& pendulum, Equilibrium about
     const double omega = support->frequency;
     require(omega > 0.0 && std::isfinite(omega), "support.frequency", omega, "a finite number > 0");
     equation.angular_frequency = omega;
+    // An underflow must not prove that delta is 0.
+    const double delta = std::max(alpha_squared / (omega * omega), std::numeric_limits<double>::denorm_min());
     const auto acceleration = support->function.derivative().derivative();  // per theta^2
     equation.coefficient =
-        acceleration.scaled(sign * (alpha_squared / pendulum.gravity)).plus(sign * (alpha_squared / (omega * omega)));
+        acceleration.scaled(sign * (alpha_squared / pendulum.gravity)).plus(sign * delta);
     equation.coefficient_error = kCoefficientError;
   }
   equation.validate();

@@ -15,9 +15,7 @@ const ParameterEntry& find(const std::vector<ParameterEntry>& table, std::string
     if (entry.info.path == path) return entry;
     known.push_back(entry.info.path);
   }
-  const std::string close = nearest(path, known);
-  throw InvalidInput("unknown parameter '" + std::string(path) + "' for this scene" +
-                     (close.empty() ? "" : "; did you mean '" + close + "'?"));
+  throw InvalidInput("unknown parameter '" + std::string(path) + "' for this scene" + suggestion(path, known));
 }
 
 void positive(std::string_view path, double value) {

@@ -87,7 +87,7 @@ TEST_CASE("axes of flags that make no sense are refused", "[apps][command_line]"
   room.refuses(with_x("mathieu.epsilon=1:2:3"), 2, {"different from that of the x axis"});
   room.refuses(with_x("mathieu.delta=1:1:3"), 2, {"empty"});
   room.refuses(with_x("mathieu.delta=1:2:1"), 2, {"one point"});
-  room.refuses(with_x("mathieu.delta=1:2:0"), 2, {"'0'", "from 1"});
+  room.refuses(with_x("mathieu.delta=1:2:0"), 2, {"--x: ", "'0'", "from 1"});
   room.refuses(with_x("mathieu.delta=1:2:-3"), 2, {"'-3'"});
   room.refuses(with_x("mathieu.delta=1:2:1e3"), 2, {"'1e3'"});
   room.refuses(with_x("mathieu.delta=nan:2:3"), 2, {"'nan'"});
@@ -147,6 +147,10 @@ TEST_CASE("times and starts of a motion that make no sense are refused", "[apps]
                2, {"--angle", "wrong dimension"});
   room.refuses({"motion", "p.toml", "--angle", "nan", "--velocity", "0", "--duration", "1", "--samples", "2"},
                2, {"--angle", "'nan'"});
+  room.refuses({"motion", "p.toml", "--angle", "2e9", "--velocity", "0", "--duration", "1", "--samples", "2"},
+               2, {"angle = 2e+09", "-1e9"});
+  room.refuses({"motion", "p.toml", "--angle", "1", "--velocity", "inf", "--duration", "1", "--samples", "2"},
+               2, {"--velocity", "'inf'"});
 }
 
 TEST_CASE("outputs that do not fit are refused", "[apps][command_line]") {
@@ -167,7 +171,10 @@ TEST_CASE("outputs that do not fit are refused", "[apps][command_line]") {
   room.refuses({"stability", "m.toml", "-o", "s.json"}, 2, {"--json"});
   room.refuses({"period", "--amplitude", "1", "-o", "s.h5"}, 2, {"'s.h5'", "CSV"});
   room.refuses({"stability", "m.toml", "--json", "-o", "out.csv"}, 2, {"--json"});
-  room.refuses({"stability", "-", "--points", "-"}, 2, {"standard input"});
+  room.refuses({"stability", "-", "--points", "-"}, 2, {"--points", "standard input"});
+  room.refuses({"motion", "-", "--angle", "1", "--velocity", "0", "--times", "-"}, 2, {"--times", "standard input"});
+  room.refuses({"portrait", "-", "--starts", "-"}, 2, {"--starts", "standard input"});
+  room.refuses({"period", "--scene", "-", "--points", "-"}, 2, {"--points", "standard input"});
 }
 
 TEST_CASE("a chart over the memory budget is refused before it begins", "[apps][command_line]") {

@@ -110,10 +110,18 @@ TEST_CASE("a full disk is an input/output error and leaves nothing", "[apps][out
   room.fails({"motion", "p.toml", "--angle", "1", "--velocity", "0", "--duration", "1", "--samples", "3",
               "-o", "/dev/full"},
              {"No space left on device"});
+  room.fails({"period", "--amplitude", "1", "-o", "/dev/full"}, {"No space left on device"});
+  room.fails({"portrait", "-o", "/dev/full"}, {"No space left on device"});
+  room.fails({"normal-form", "--points", "-", "-o", "/dev/full"}, {"No space left on device"},
+             {.input = "alpha\n1\n"});
   const int full = ::open("/dev/full", O_WRONLY);
   REQUIRE(full >= 0);
-  for (const Words& words :
-       {Words{"--version"}, {"chart", "--help"}, {"stability", "m.toml"}, room.chart({})})
+  for (const Words& words : {Words{"--version"},
+                             {"chart", "--help"},
+                             {"stability", "m.toml"},
+                             room.chart({}),
+                             {"period", "--amplitude", "1"},
+                             {"portrait"}})
     room.fails(words, {"No space left on device"}, {.output = full});
   ::close(full);
 }
@@ -133,8 +141,13 @@ TEST_CASE("a closed pipe ends the program silently", "[apps][output]") {
   int ends[2];
   REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
   ::close(ends[0]);
-  for (const Words& words :
-       {Words{"--help"}, {"stability", "m.toml"}, room.chart({}), room.chart({"--json"})}) {
+  for (const Words& words : {Words{"--help"},
+                             {"stability", "m.toml"},
+                             room.chart({}),
+                             room.chart({"--json"}),
+                             {"period", "--amplitude", "1"},
+                             {"portrait"},
+                             {"portrait", "--json"}}) {
     const Result result = strutt(words, {.directory = room.directory.path(), .output = ends[1]});
     CHECK(result.code == 141);
     CHECK(result.err.empty());

@@ -189,6 +189,39 @@ TEST_CASE("infinite growth of numbers stays finite in files", "[apps][stability]
   CHECK(value(rows, 1, "margin_error") == "0");
 }
 
+TEST_CASE("the plan of a table tells its size and its cost", "[apps][stability]") {
+  std::string table = "mathieu.delta\n";
+  for (int i = 0; i < 2000; ++i) table += std::to_string(i) + "\n";
+  const ScratchDirectory directory;
+  directory.with("points.csv", table);
+  const auto plan = [&](const std::string& method) {
+    const Result result = strutt({"stability", "-", "--points", "points.csv", "--threads", "1", "--method", method,
+                                  "--dry-run"},
+                                 {.input = "[mathieu]\n", .directory = directory.path()});
+    CHECK(result.code == 0);
+    CHECK_THAT(result.out, Catch::Matchers::Contains("# points: 2000\n"));
+    const auto begin = result.out.find("# expected time: ");
+    REQUIRE(begin != std::string::npos);
+    return std::stod(result.out.substr(begin + 17));
+  };
+  CHECK(plan("auto") > 0.0);
+  CHECK(plan("cvode") > 5.0 * plan("auto"));
+}
+
+TEST_CASE("the flag beats the tolerance of the scene, which beats the default", "[apps][stability]") {
+  const auto method = std::vector<std::string>{"stability", "-", "--method", "arkode"};
+  const auto tolerance_in = [&](std::vector<std::string> flags, const std::string& chart) {
+    flags.insert(flags.begin(), method.begin(), method.end());
+    const Result result = strutt(flags, {.input = "[mathieu]\n" + chart});
+    CHECK(result.code == 0);
+    const auto begin = result.out.find("# tolerance: ") + 13;
+    return result.out.substr(begin, result.out.find('\n', begin) - begin);
+  };
+  CHECK(tolerance_in({}, "") == "1e-09");
+  CHECK(tolerance_in({}, "[chart]\ntolerance = 1e-6\n") == "1e-06");
+  CHECK(tolerance_in({"--tolerance", "1e-7"}, "[chart]\ntolerance = 1e-6\n") == "1e-07");
+}
+
 TEST_CASE("a tolerance that is not reached is exit code 1 and said in the row", "[apps][stability]") {
   const Result result = strutt({"stability", "-", "--tolerance", "1e-13"},
                                {.input = "[mathieu]\ndelta = 1e4\nepsilon = 1e3\n"});

@@ -31,7 +31,7 @@ long double excess(const BoundedMatrix& m, const MatrixXl& truth) {
 }  // namespace
 
 TEST_CASE("identity and the empty product", "[base][bounded]") {
-  for (const BoundedMatrix& one : {BoundedMatrix::identity(3), ordered_product({}, 3)}) {
+  for (const BoundedMatrix& one : {BoundedMatrix::identity(3), ordered_product(std::vector<BoundedMatrix>{}, 3)}) {
     for (int i = 0; i < 9; ++i) CHECK(one.value.entry(i / 3, i % 3) == (i % 4 == 0 ? 1.0 : 0.0));
     CHECK(one.error.isZero(0.0));
   }
@@ -50,7 +50,7 @@ TEST_CASE("the first factor acts first, and one factor is exact", "[base][bounde
   a << 1, 2, 3, 4;
   b << 0, 1, 1, 1;
   const MatrixXd none = MatrixXd::Zero(2, 2), expected = b * a;
-  const auto product = ordered_product({{{a, 0}, none}, {{b, 0}, none}}, 2);
+  const auto product = ordered_product(std::vector<BoundedMatrix>{{{a, 0}, none}, {{b, 0}, none}}, 2);
   for (int i = 0; i < 4; ++i) CHECK(product.value.entry(i / 2, i % 2) == expected(i / 2, i % 2));
   const std::vector<BoundedMatrix> single(1, BoundedMatrix{{a, 0}, none});
   CHECK(ordered_product(single, 2).error.isZero(0.0));

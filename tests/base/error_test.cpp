@@ -56,3 +56,11 @@ TEST_CASE("the nearest name", "[base][error]") {
   CHECK(nearest("", names).empty());
   CHECK(nearest("mass", {}).empty());
 }
+
+TEST_CASE("an unknown word is answered with the nearest one, else with all", "[base][error]") {
+  CHECK(suggestion("lenght", {"mass", "length"}) == "; did you mean 'length'?");
+  CHECK(suggestion("z", {"x", "y"}) == "; known are 'x', 'y'");
+  CHECK(suggestion("z", {}).empty());
+  CHECK(quoted_list(std::vector<std::string>(12, "a")).ends_with(", 'a'"));
+  CHECK(quoted_list(std::vector<std::string>(13, "a")).ends_with("'a', ... (13 in all)"));
+}

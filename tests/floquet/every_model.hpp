@@ -21,7 +21,9 @@ inline std::vector<Method> methods(const LinearModel& model) {
 inline Monodromy computed(const LinearModel& model, Method method) {
   static MonodromyEngine engine;
   const MonodromyOptions options{.tolerance = 1e-9, .method = method};
-  auto result = std::visit([&](const auto& equation) { return engine.compute(equation, options); }, model);
+  const auto* equation = std::get_if<HillEquation>(&model);
+  auto result = equation != nullptr ? widened(engine.compute(*equation, options))
+                                    : engine.compute(std::get<LinearPeriodicSystem>(model), options);
   CHECK(result.outcome == Outcome::converged);
   CHECK(result.error <= 1e-9);
   return result;

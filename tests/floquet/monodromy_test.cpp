@@ -29,12 +29,14 @@ std::vector<HillEquation> zoo() {
   return result;
 }
 
-Eigen::Matrix2d plain(const Monodromy& m) {
+template <typename Matrix>
+Eigen::Matrix2d plain(const BasicMonodromy<Matrix>& m) {
   return m.matrix.value.mantissa * std::ldexp(1.0, static_cast<int>(m.matrix.value.exponent));
 }
 
 /// Tolerance of a comparison: the bounds of both sides, in absolute terms.
-double allowance(const Monodromy& m) { return m.error * std::max(1.0, plain(m).cwiseAbs().maxCoeff()); }
+template <typename Matrix>
+double allowance(const BasicMonodromy<Matrix>& m) { return m.error * std::max(1.0, plain(m).cwiseAbs().maxCoeff()); }
 
 HillEquation shifted(HillEquation equation, double phase) {
   equation.coefficient = equation.coefficient.shifted(phase);

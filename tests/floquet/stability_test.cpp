@@ -163,6 +163,20 @@ TEST_CASE("A system with one degree of freedom has the scaled error of a system,
   CHECK(coarse.error <= 1e-6);
 }
 
+TEST_CASE("One degree of freedom beyond the range of double is an outcome", "[floquet][extreme]") {
+  MonodromyEngine engine;
+  LinearPeriodicSystem system;
+  system.mass = Eigen::MatrixXd::Identity(1, 1);
+  system.period = 1e300;
+  system.stiffness.mean = Eigen::MatrixXd::Constant(1, 1, 1e300);
+  CHECK(analyse(engine, system, {}).outcome != Outcome::converged);
+  system.period = 1e-320;
+  CHECK(analyse(engine, system, {}).verdict == Verdict::unresolved);
+  system.period = 1.0;
+  system.stiffness.mean(0, 0) = 1.0;
+  CHECK(analyse(engine, system, {}).outcome == Outcome::converged);
+}
+
 TEST_CASE("Parts that were not asked for are not computed", "[floquet][cost]") {
   MonodromyEngine engine;
   const auto result =

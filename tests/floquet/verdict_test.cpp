@@ -40,13 +40,33 @@ TEST_CASE("Equality is called boundary only where it is proved", "[floquet][verd
   CHECK(at(-1e-280, 0.0).verdict == Verdict::unstable);
   CHECK(at(1e-280, 0.0).verdict == Verdict::stable);
   CHECK(at(std::nextafter(0.0, -1.0), 0.0).verdict == Verdict::unresolved);  // underflow proves nothing
+  const auto tiny = [&](double mean) {
+    MonodromyEngine engine;
+    return analyse(engine, hill_equation(1e-10, PeriodicFunction::constant(mean))).verdict;
+  };
+  CHECK(tiny(1e-310) == Verdict::unresolved);  // 0 in canonical time
+  CHECK(tiny(-1e-310) == Verdict::unresolved);
+  CHECK(tiny(0.0) == Verdict::boundary);
   // rounded inputs prove nothing: alpha^2/omega^2 = 1/4 up to rounding
   MonodromyEngine engine;
   const auto rod = PhysicalPendulum::uniform_rod(1.0, 0.7);
   const auto support = sinusoidal_support(0.0, 2.0 * rod.alpha());
   CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, &support).equation).verdict == Verdict::unresolved);
+  const auto fast = sinusoidal_support(0.0, 1e300);
+  CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, &fast).equation).verdict == Verdict::unresolved);
   // without a support the period is the free one, exactly
   CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, nullptr).equation).verdict == Verdict::boundary);
+}
+
+TEST_CASE("Damping alone keeps constants: a boundary, proved", "[floquet][verdict]") {
+  for (const double c : {1e-12, 0.1, 3.0, 400.0}) {
+    const auto result = at(0.0, 0.0, c);
+    CHECK(result.verdict == Verdict::boundary);
+    CHECK(result.growth == 0.0);
+    CHECK(at(1e-6, 0.0, c).verdict != Verdict::boundary);
+    CHECK(at(0.0, 1e-9, c).verdict != Verdict::boundary);
+  }
+  CHECK_FALSE(std::signbit(at(0.0, 0.0).margin));  // files say 0, not -0
 }
 
 TEST_CASE("Coexistence of the square wave is proved when both pieces are whole turns", "[floquet][verdict][N8]") {

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "free_pendulum/exact.hpp"
+#include "reference/free_pendulum.hpp"
 #include "strutt/base/error.hpp"
 
 using namespace strutt;

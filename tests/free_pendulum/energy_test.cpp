@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "free_pendulum/exact.hpp"
 #include "free_pendulum/orbit_start.hpp"
+#include "reference/free_pendulum.hpp"
 #include "strutt/base/error.hpp"
 
 using namespace strutt;

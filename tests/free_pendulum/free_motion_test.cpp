@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "free_pendulum/exact.hpp"
+#include "reference/free_pendulum.hpp"
 #include "strutt/base/error.hpp"
 
 using namespace strutt;
@@ -105,6 +105,25 @@ TEST_CASE("a velocity whose square is beyond double still rotates", "[free_pendu
   CHECK(state.angle == Approx(1e5).epsilon(1e-15));
   CHECK(state.velocity == Approx(1e200).epsilon(1e-15));
   CHECK(std::isinf(motion.at(1e200).error));
+  CHECK(std::isnan(motion.at(1e200).angle));
+}
+
+TEST_CASE("N28: beyond 2^53 turns the phase keeps digits, and says when it has none",
+          "[free_pendulum][motion][extremes]") {
+  check(GENERATE(Case{1.0, 0.0, 1e17}, Case{3.0, 0.1, 1e20}, Case{1.0, 0.0, 1e24}, Case{-0.5, 2.5, 1e17}));
+  CHECK(FreeMotion({}, 1.0, 0.0).at(1e17).error < 1e-11);
+  const auto outcome = [](double t) {
+    return free_motion({10.0, 0.0}, {1.0, 0.0}, std::array{t}, 1e-2).points[0];
+  };
+  CHECK(outcome(1e20).outcome == Outcome::converged);
+  CHECK(outcome(1e40).outcome == Outcome::tolerance_not_reached);
+  CHECK(outcome(1e40).error > kPiRounded);
+  CHECK(std::abs(outcome(1e40).angle) <= 1.0);  // somewhere on its orbit
+  const MotionPoint lost = outcome(1e308);
+  CHECK(lost.outcome == Outcome::tolerance_not_reached);
+  CHECK(std::isnan(lost.angle));
+  CHECK(std::isnan(lost.velocity));
+  CHECK(std::isinf(lost.error));
 }
 
 TEST_CASE("the exact separatrix is the Gudermannian", "[free_pendulum][motion][exact]") {

@@ -66,9 +66,11 @@ TEST_CASE("(22) has the coefficient that the normal form derives", "[free_pendul
 
 TEST_CASE("formula errors keep their digits from 1e-60 rad up", "[free_pendulum][reference]") {
   for (const PeriodMethod formula : kPeriodFormulas) {
-    for (double amplitude = 1e-3; amplitude < kPiDouble; amplitude += 0.0317)
-      if (formula != kSquared || amplitude < kSqrt8)
-        check_error(formula_of_amplitude(formula, amplitude), formula, amplitude);
+    for (double amplitude = 1e-3; amplitude < kPiDouble; amplitude += 0.0317) {
+      if (formula == kSquared && amplitude >= kSqrt8) continue;
+      check_error(formula_of_amplitude(formula, amplitude), formula, amplitude);
+      CHECK(strutt::formula_ratio(formula, amplitude) == formula_of_amplitude(formula, amplitude).ratio);
+    }
     for (const double amplitude : {1e-5, 0.01, 0.0999999, 0.1, 0.100001, 0.2999, 0.3, 0.3001})
       check_error(formula_of_amplitude(formula, amplitude), formula, amplitude);
     CHECK(formula_of_amplitude(formula, 0.0).relative_error == 0.0);
@@ -115,6 +117,13 @@ TEST_CASE("no formula where it has no meaning", "[free_pendulum][misuse]") {
   CHECK_THROWS_AS(CheapestPeriod(NAN), InvalidInput);
   CHECK_THROWS_AS(CheapestPeriod(1e-3).method(-1.0), InvalidInput);
   CHECK_THROWS_AS(CheapestPeriod(1e-3).of_amplitude(4.0), InvalidInput);
+  CHECK_THROWS_AS(CheapestPeriod(1e-3).ratio(3.15), InvalidInput);
+  CHECK_THROWS_AS(CheapestPeriod(1e-3).ratio(NAN), InvalidInput);
+  CHECK_THROWS_AS(CheapestPeriod(1.0).ratio(3.15), InvalidInput);
+  CHECK_THROWS_AS(strutt::formula_ratio(kKrylov, 3.15), InvalidInput);
+  CHECK_THROWS_AS(strutt::formula_ratio(kKrylov, -0.1), InvalidInput);
+  CHECK_THROWS_AS(strutt::formula_ratio(PeriodMethod::elliptic, 1.0), InvalidInput);
+  CHECK(std::isnan(strutt::formula_ratio(kSquared, 2.83)));
 }
 
 TEST_CASE("largest amplitudes, against roots found with 40 digits", "[free_pendulum][reference]") {
@@ -163,6 +172,7 @@ TEST_CASE("the cheapest formula is good enough, and its error is bounded", "[fre
     };
     for (double x = 1e-4; x < kPiDouble; x += 0.0713) {
       check(cheapest.of_amplitude(x, alpha), x);
+      CHECK(cheapest.ratio(x) == cheapest.of_amplitude(x).ratio);
       check(cheapest.of_from_top(x, alpha), pi - Real(x));
       check(cheapest.of_excess(-x, alpha), 2 * acos(sqrt(Real(x)) / 2));
     }

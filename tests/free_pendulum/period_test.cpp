@@ -8,8 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "free_pendulum/exact.hpp"
+#include "reference/free_pendulum.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/integrate/integrator.hpp"
 
 using namespace strutt;
 using Real = exact::Real50;
@@ -204,6 +205,16 @@ TEST_CASE("the stated error holds for the period with its alpha", "[free_pendulu
   CHECK_THROWS_AS(period_of_from_top(-1e-300), InvalidInput);
 }
 
+TEST_CASE("a period below the normal doubles says what it lost", "[free_pendulum][period][extremes]") {
+  const double alpha = GENERATE(1e150, 3e154, 1e160, 1e169, 1e170, 1e300);
+  const double excess = 1e308;
+  const Period period = period_of_excess(excess, {alpha, 0.0});
+  const Real truth = true_rotation_ratio(excess) * 2 * exact::pi<Real>() / Real(alpha);
+  CHECK(abs(period.period / truth - 1) <= Real(period.error));
+  CHECK(abs(4 * Real(period.quarter) / truth - 1) <= Real(period.error));
+  CHECK((period.error < 1e-15) == (alpha < 1e154));
+}
+
 TEST_CASE("dT/dE is the difference quotient of the exact period", "[free_pendulum][period][accuracy]") {
   const double e = GENERATE(-3.9999, -3.0, -1.0, -1e-5, -1e-20, 1e-20, 1e-5, 1.0, 100.0, 1e10);
   const auto ratio = [](const exact::Real& x) {
@@ -265,10 +276,47 @@ TEST_CASE("the time of flight is the elliptic integral", "[free_pendulum][period
     const BoundedNumber time = rotation_time_of_flight(excess, angle);
     CHECK(abs(time.value / truth - 1) <= Real(time.error));
   }
+  SECTION("down to the smallest angles") {
+    const double angle = GENERATE(5e-324, 1e-320, 1e-310, 1e-305, 1e-250, 0.99e-150, 1.01e-150);
+    for (const double amplitude : {2e-323, 1e-310, 1e-300, 1e-150, 1e-99, 1.0, kPiRounded}) {
+      if (angle > amplitude) continue;
+      const Real truth = asin(Real(sin(Real(angle) / 2) / sin(Real(amplitude) / 2)));  // F(psi) = psi here
+      const BoundedNumber time = libration_time_of_flight(amplitude, angle);
+      CAPTURE(amplitude, angle, time.value);
+      CHECK(abs(time.value / truth - 1) <= Real(time.error));
+      CHECK((time.error < 1.2e-16 || time.value < 1e-290));
+    }
+    for (const double excess : {1e-80, 1.0, 1e300}) {
+      const Real truth = Real(angle) / sqrt(4 + Real(excess));
+      const BoundedNumber time = rotation_time_of_flight(excess, angle);
+      CAPTURE(excess, angle, time.value);
+      CHECK(abs(time.value / truth - 1) <= Real(time.error));
+    }
+  }
   SECTION("misuse") {
     CHECK_THROWS_AS(libration_time_of_flight(1.0, 1.1), InvalidInput);
     CHECK_THROWS_AS(libration_time_of_flight(1.0, -0.1), InvalidInput);
     CHECK_THROWS_AS(rotation_time_of_flight(0.0, 1.0), InvalidInput);
     CHECK(libration_time_of_flight(0.0, 0.0).value == 0.0);
+  }
+}
+
+TEST_CASE("integration to the quarter-period event agrees with the elliptic period to its tolerance",
+          "[free_pendulum][period][referee]") {
+  const RightHandSide pendulum = [](double, StateView y, StateOut dydt) {
+    dydt[0] = y[1];
+    dydt[1] = -std::sin(y[0]);
+  };
+  const EventRequest bottom{[](double, StateView y, StateOut g) { g[0] = y[0]; }, {Crossing::falling}};
+  const double tolerance = GENERATE(1e-6, 1e-9, 1e-12);
+  Integrator integrator(2, {.relative_tolerance = tolerance, .absolute_tolerance = tolerance});
+  for (const double amplitude : {1e-3, 0.3, 1.0, 2.0, 2.7, 3.0, 3.1}) {
+    Eigen::VectorXd y{{amplitude, 0.0}};
+    const IntegrationResult result = integrator.advance(pendulum, 0.0, 20.0, y, &bottom);
+    REQUIRE(result.events.size() == 1);
+    const double error = std::abs(result.t / period_of_amplitude(amplitude).quarter - 1.0);
+    CAPTURE(tolerance, amplitude, error, result.cost.right_hand_sides);
+    CHECK(error <= tolerance);
+    CHECK(result.cost.right_hand_sides > 10);
   }
 }

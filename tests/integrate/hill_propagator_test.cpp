@@ -136,7 +136,8 @@ TEST_CASE("the steps of a plan reach its tolerance, and half the steps tell by h
   int reached = 0;
   CAPTURE(region.high.delta, region.high.epsilon, region.order, tolerance);
   for (const auto& p : points) {
-    const auto plan = plan_hill_steps(harmonic(p.delta, p.epsilon, region.order), 0.0, kPi, tolerance);
+    const auto plan = HillStepPlanner(region.order, kPi, tolerance)
+                          .plan(std::abs(p.delta) + std::abs(p.epsilon));
     REQUIRE(plan.steps >= 4);
     const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, region.order)};
     const auto full = run(plan, region.order, {p}),
@@ -217,7 +218,7 @@ TEST_CASE("several harmonics, and a start that is not 0", "[integrate][propagato
 TEST_CASE("growth beyond the range of double stays in the exponent",
           "[integrate][propagator][extreme][N1][simd]") {
   for (const double delta : {-1e4, -1e6}) {
-    const auto plan = plan_hill_steps(PeriodicFunction::constant(delta), 0.0, kPi, 1e-9);
+    const auto plan = HillStepPlanner(1, kPi, 1e-9).plan(-delta);
     const auto r = run(plan, 1, {{delta, 0.0}});
     const double growth = std::log(r.u1[0]) + static_cast<double>(r.exponent[0]) * std::numbers::ln2;
     CHECK(growth == Approx(kPi * std::sqrt(-delta) - std::numbers::ln2).epsilon(1e-9));
@@ -225,7 +226,7 @@ TEST_CASE("growth beyond the range of double stays in the exponent",
 }
 
 TEST_CASE("what cannot be planned or does not fit is refused", "[integrate][propagator]") {
-  CHECK(plan_hill_steps(PeriodicFunction::constant(1e14), 0.0, kPi, 1e-9).steps == 0);
+  CHECK(HillStepPlanner(1, kPi, 1e-9).plan(1e14).steps == 0);
   const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, 1)};
   CHECK_THROWS_AS(HillPropagator({6, 0}, basis, 0.0, kPi), InvalidInput);
   CHECK_THROWS_AS(HillPropagator({5, 4}, basis, 0.0, kPi), InvalidInput);

@@ -66,6 +66,17 @@ TEST_CASE("the window, the levels and unusual portraits are drawn", "[io][portra
   CHECK(drawn(scratch / "a.svg", rest, {.title = "rest", .cells = 1}).find("</svg>") != std::string::npos);
 }
 
+TEST_CASE("wide numbers on the velocity axis get their room", "[io][portrait_figure]") {
+  const auto margin = [](const std::vector<double>& excesses) {
+    const auto curves = phase_portrait({.cells = 1, .points = 9, .excesses = excesses});
+    const std::string script = portrait_script(curves, {.title = "", .cells = 1}, FigureFormat::svg);
+    const std::string words = "set lmargin at screen ";
+    return std::stod(script.substr(script.find(words) + words.size()));
+  };
+  CHECK(margin({}) >= 0.085);
+  CHECK(margin({1e300}) > margin({}) + 0.03);  // -1*10^150 against -2
+}
+
 TEST_CASE("arrows show where the state moves, all of one length on paper", "[io][portrait_figure]") {
   const double alpha = GENERATE(1.0, 3.8);
   const PortraitDescription description{.title = "", .alpha = alpha, .cells = 2};

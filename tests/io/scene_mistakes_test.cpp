@@ -39,13 +39,15 @@ TEST_CASE("unknown keys and tables are named with the nearest known one", "[io][
   CHECK(complaint("[pendulum]\nlenght = 1\n") ==
         "s.toml:2:1: unknown key 'lenght' in [pendulum]; did you mean 'length'?");
   CHECK(complaint("[pendulm]\nlength = 1\n") == "s.toml:1:2: unknown table [pendulm]; did you mean [pendulum]?");
-  CHECK(complaint("length = 1\n" + kRod) == "s.toml:1:1: unknown key 'length' outside the tables");
+  CHECK(complaint("length = 1\n" + kRod) == "s.toml:1:1: unknown key 'length' outside the tables; the tables are 'pendulum', 'support', 'moment', 'mathieu', "
+        "'hill', 'linear', 'chart'");
   CHECK(complaint(kRod + "[support]\nfrequency = 1\nharmonics = [{ ordr = 1 }]\n") ==
         "s.toml:5:16: unknown key 'ordr' in [support.harmonics]; did you mean 'order'?");
   CHECK(complaint("[pendulum]\nshape = \"rodd\"\n") ==
         "s.toml:2:9: pendulum.shape = 'rodd' is not known; did you mean 'rod'?");
   CHECK(complaint("[pendulum]\nlength = 1\n\"a\\u001b[31m\" = 1\n") ==
-        "s.toml:3:1: unknown key 'a\\x1B[31m' in [pendulum]");
+        "s.toml:3:1: unknown key 'a\\x1B[31m' in [pendulum]; known are 'shape', 'mass', 'length', 'inertia', 'centroid', "
+        "'gravity', 'damping', 'about'");
 }
 
 TEST_CASE("values out of range are named with the range", "[io][scene_file]") {
@@ -60,6 +62,12 @@ TEST_CASE("values out of range are named with the range", "[io][scene_file]") {
   CHECK(contains(complaint("[mathieu]\ndamping = -2\n"), "s.toml:2:11: mathieu.damping = -2"));
   CHECK(contains(complaint("[pendulum]\nshape = \"body\"\ncentroid = 1\ninertia = 0.1\n"),
                  "s.toml:4:11: pendulum.inertia = 0.1 is not allowed"));
+}
+
+TEST_CASE("values that make no equation together are named with their table", "[io][scene_file]") {
+  CHECK(contains(complaint("[pendulum]\nlength = 1e-300\n"), "s.toml:1:1: [pendulum]: inertia = 0 is not allowed"));
+  CHECK(contains(complaint("[pendulum]\nlength = 1\n\n[support]\nfrequency = 1e-300\n"), "s.toml:4:1: [support]: "));
+  CHECK(contains(complaint("# slow\n[hill]\nperiod = 1e-320\n"), "s.toml:2:1: [hill]: angular frequency = inf"));
 }
 
 TEST_CASE("numbers that are none are refused", "[io][scene_file]") {

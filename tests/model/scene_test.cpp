@@ -142,8 +142,10 @@ TEST_CASE("Parameters of absent parts do not exist, and the nearest one is named
   CHECK(message(hill_scene(Waveform::harmonics), "hill.harmonics.2.cos") ==
         "unknown parameter 'hill.harmonics.2.cos' for this scene; did you mean 'hill.harmonics.1.cos'?");
   CHECK(message(linear_scene(), "linear.mass.2.0") != "");
-  CHECK(message(rod_scene(), "x") == "unknown parameter 'x' for this scene");
-  CHECK(message(rod_scene(), "") == "unknown parameter '' for this scene");
+  for (const std::string strange : {"x", ""}) {
+    CHECK(message(rod_scene(), strange.c_str()).starts_with("unknown parameter '" + strange +
+                                                    "' for this scene; known are 'pendulum.mass', 'pendulum.length'"));
+  }
 }
 
 TEST_CASE("validate names the parameter that is out of range", "[model][scene][error]") {

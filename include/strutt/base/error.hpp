@@ -45,4 +45,11 @@ std::string to_text(double value);
 /// The candidate with the smallest edit distance to `word`, empty when none is closer than half of its length.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// "'a', 'b', 'c'"; of a long list the first twelve and the number of all.
+std::string quoted_list(const std::vector<std::string>& names);
+
+/// What to say behind an unknown `word`: "; did you mean 'mass'?" with the nearest of those known, else
+/// "; known are 'length', 'mass'". Empty if nothing is known.
+std::string suggestion(std::string_view word, const std::vector<std::string>& known);
+
 }  // namespace strutt

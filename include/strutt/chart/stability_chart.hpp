@@ -44,12 +44,18 @@ struct ChartPlan {
   std::size_t rows_per_strip = 0;
   double result_bytes = 0.0;   ///< of all layers and axes as float64
   double working_bytes = 0.0;  ///< of the strip buffer and the workspaces; does not grow with the number of rows
-  double budget_bytes = 0.0;   ///< half of the physical memory
+  double budget_bytes = 0.0;   ///< memory_budget()
   double expected_seconds = 0.0;  ///< from a fixed cost per cell, for orientation
   Method method = Method::automatic;  ///< the one that will be used
   std::string refusal;  ///< why the surrogate that was asked for is not used; empty: it is, or was not asked for
   int threads = 1;
 };
+
+/// What a result may take unless the user lifts the budget: half of the physical memory, in bytes.
+double memory_budget();
+
+/// Forecast, for orientation: the time that one point takes one thread by this method at tolerance 1e-9, in seconds.
+double expected_seconds_per_point(Method method);
 
 /// Checks the request against the scene (parameters exist, ends are valid values, sizes do not overflow) and estimates it.
 /// Throws InvalidInput, and MemoryBudgetExceeded when result_bytes or working_bytes > budget_bytes unless `force`.

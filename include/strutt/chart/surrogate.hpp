@@ -100,6 +100,7 @@ class Surrogate {
   /// 0: trace, margin, growth and winding are the same. `error` is that of `matrix`; outcome
   /// tolerance_not_reached where it is above the tolerance.
   std::optional<Monodromy> monodromy(double x, double y) const;
+  std::optional<HillMonodromy> hill_monodromy(double x, double y) const;  ///< nothing if it is no Hill equation
 
   /// Nothing where there is no surrogate. With half-period factors the discriminant and its gradient are
   /// D = 2 (u1 u2' + u1' u2).
@@ -116,6 +117,11 @@ class Surrogate {
   static double coordinate(const Axis& axis, double value);
 
  private:
+  struct Point {
+    const SurrogateBox* box;
+    LinearModel model;
+  };
+  std::optional<Point> point_at(double x, double y) const;
   const SurrogateBox* box_at(double x, double y) const;
 
   SurrogateData data_;

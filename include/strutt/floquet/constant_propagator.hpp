@@ -11,6 +11,6 @@ namespace strutt {
 /// The phase is reduced in twice the working precision, so cos and sin keep their relative accuracy next to their zeros
 /// and are exactly 0 where w and half_turns say so: the error bounds are entrywise relative, and 0 for a proved 0.
 /// `coefficient_error` bounds the absolute error of w (0: w is exact).
-BoundedMatrix constant_propagator(double w, double half_turns, double kappa, double coefficient_error = 0.0);
+BoundedMatrix2 constant_propagator(double w, double half_turns, double kappa, double coefficient_error = 0.0);
 
 }  // namespace strutt

@@ -5,6 +5,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "strutt/base/bounded_matrix.hpp"
 #include "strutt/base/method.hpp"
@@ -31,13 +33,15 @@ struct MonodromyOptions {
 /// The state is scaled, (q, q'/kappa): entries are then dimensionless and comparable. With uniform damping
 /// (q'' + c q' + ...) the equation of y = exp(ct/2) q is integrated, whose matrix N has determinant 1:
 ///   M = exp(-h) L N L^-1,   h = cT/2,   L = [I, 0; -(c/2 kappa) I, I].
-struct Monodromy {
-  BoundedMatrix matrix;      ///< M, n x n, scaled state
-  BoundedMatrix undamped;    ///< N (= M where no damping was split off)
+template <typename Matrix>
+struct BasicMonodromy {
+  using Bounded = BasicBoundedMatrix<Matrix>;
+  Bounded matrix;      ///< M, n x n, scaled state
+  Bounded undamped;    ///< N (= M where no damping was split off)
   double half_damping = 0.0; ///< h
   /// Hill's equation with an even coefficient about theta0: the propagator of y over [theta0, theta0 + pi],
   /// [u1, kappa u2; u1'/kappa, u2']. Then trace N - 2 = 4 u1' u2 and trace N + 2 = 4 u1 u2'.
-  std::optional<BoundedMatrix> half;
+  std::optional<Bounded> half;
   double kappa = 1.0;        ///< in the scene's unit of time
 
   /// Upper bound of the error of trace M and of every entry of `matrix`, divided by max(1, largest |entry|), the
@@ -50,6 +54,12 @@ struct Monodromy {
   IntegrationCost cost;               ///< of the runs that gave the value
   IntegrationCost estimate_cost;      ///< of those that gave the error
 };
+
+using Monodromy = BasicMonodromy<Eigen::MatrixXd>;
+using HillMonodromy = BasicMonodromy<Eigen::Matrix2d>;  ///< of a Hill equation
+
+/// The same with matrices whose size the type does not say.
+Monodromy widened(const HillMonodromy& monodromy);
 
 /// The method that a computation begins with when `asked` for. Method::automatic: `exact` for a piecewise-constant
 /// coefficient, `propagator` for other Hill equations, `arkode` for systems. Throws InvalidInput if the one asked for
@@ -71,7 +81,11 @@ class MonodromyEngine {
   /// arkode. The local tolerance of SUNDIALS starts at max(tolerance/100, 1e-14). Both are tightened while the error bound
   /// is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
-  Monodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
+  HillMonodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
+  /// Many at once, the propagator of smooth equations several to a processor register: the same bits as one by
+  /// one, several times as fast.
+  std::vector<HillMonodromy> compute(std::span<const HillEquation> equations,
+                                     const MonodromyOptions& options = {});
   Monodromy compute(const LinearPeriodicSystem& system, const MonodromyOptions& options = {});
 
  private:

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "strutt/floquet/multipliers.hpp"
@@ -36,12 +37,16 @@ struct StabilityParts {
 };
 
 /// From a monodromy matrix to everything else. Never throws for numerical reasons.
-Stability assess(const HillEquation& equation, const Monodromy& monodromy, const StabilityParts& parts = {});
+Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts = {});
 Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts = {});
 
 /// compute + assess. A system with one degree of freedom and constant c >= 0 is treated as the Hill equation it is.
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options = {},
                   const StabilityParts& parts = {});
+
+/// The same for many models, Hill equations side by side; the same bits as one by one.
+std::vector<Stability> analyse(MonodromyEngine& engine, std::span<const LinearModel> models,
+                               const MonodromyOptions& options = {}, const StabilityParts& parts = {});
 
 /// The method that `analyse` begins with when `asked` for; throws InvalidInput if it does not fit (monodromy.hpp).
 Method method_for(const LinearModel& model, Method asked);

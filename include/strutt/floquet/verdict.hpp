@@ -37,7 +37,7 @@ struct DiscriminantGap {
   double log_abs = 0.0;    ///< ln |D|
   double log_abs_error = 0.0;
 };
-DiscriminantGap discriminant_gap(const Monodromy& monodromy);
+DiscriminantGap discriminant_gap(const HillMonodromy& monodromy);
 
 /// margin = 1 - |D|/(2 cosh h) of a 2 x 2 monodromy with det N = 1 and h = cT/2 >= 0:
 /// (2 - |D| + 4 sinh^2(h/2))/(2 cosh h), in logarithms where these overflow. Bounds: those of discriminant_gap,

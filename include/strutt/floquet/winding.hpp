@@ -13,7 +13,7 @@ namespace strutt {
 /// angle of the solution that starts as (0, 1): known from N up to whole turns, which are counted by a product of exact
 /// propagators of a piecewise-constant approximation of W, refined until it lies within a quarter turn of that angle.
 /// NaN if it cannot be counted (the matrix is not finite, or more than about 1e6 turns).
-double winding_number(const PeriodicFunction& w, const BoundedMatrix& undamped, const DiscriminantGap& discriminant,
+double winding_number(const PeriodicFunction& w, const BoundedMatrix2& undamped, const DiscriminantGap& discriminant,
                       double kappa);
 
 }  // namespace strutt

@@ -13,7 +13,8 @@ namespace strutt {
 // with E the separatrix excess (energy.hpp). From 1e-300 away from rest to 1e-300 away from the separatrix;
 // the last double below pi is an ordinary amplitude (T/T0 = 24.65). Inputs are taken as exact.
 
-/// A positive number and a bound of its relative error, the rounding of the number itself included.
+/// A positive number and a bound of its relative error, the rounding of the number itself included (also
+/// where it falls below the normal doubles: above 1 where it is rounded to 0).
 struct BoundedNumber {
   double value = 0.0;
   double error = 0.0;
@@ -33,9 +34,9 @@ void period_ratios_from_top(std::span<const double> from_top, std::span<double> 
 
 /// How a period was found.
 enum class PeriodMethod : signed char {
-  elliptic,        ///< the closed form
-  separatrix,      ///< infinite
-  normal_form,     ///< this and the following: period_formulas.hpp
+  elliptic,     ///< the closed form
+  separatrix,   ///< infinite
+  normal_form,  ///< this and the following: period_formulas.hpp
   krylov,
   krylov_squared,
   series,
@@ -45,10 +46,12 @@ std::string_view to_string(PeriodMethod method);
 
 /// A period. `error` bounds the relative errors of all three.
 struct Period {
-  double ratio = 1.0;   ///< T/T0
-  double period = 0.0;  ///< T, s for alpha in rad/s
+  double ratio = 1.0;    ///< T/T0
+  double period = 0.0;   ///< T, s for alpha in rad/s
   double quarter = 0.0;  ///< T/4; in a libration the time from the bottom to the turning point
-  double error = 0.0;  ///< <= 3.5e-16; 0 on the separatrix, where ratio and period are +inf
+  /// <= 3.5e-16 (more where T/4 is below 1e-307, above 1 where it is rounded to 0); 0 on the
+  /// separatrix, where ratio and period are +inf.
+  double error = 0.0;
   PeriodMethod method = PeriodMethod::elliptic;
 };
 

@@ -15,6 +15,10 @@ namespace strutt {
 inline constexpr std::array<PeriodMethod, 4> kPeriodFormulas{
     PeriodMethod::normal_form, PeriodMethod::krylov, PeriodMethod::series, PeriodMethod::krylov_squared};
 
+/// T/T0 by a formula alone, without its error: correct to 4 eps for an amplitude in
+/// [0, 3.141592653589793] rad; NaN from krylov_limit on. Throws InvalidInput as formula_of_amplitude does.
+double formula_ratio(PeriodMethod formula, double amplitude);
+
 /// T/T0 by a formula, and how far that is from the true value of the pendulum.
 struct FormulaError {
   double ratio = 1.0;           ///< T/T0 by the formula
@@ -51,6 +55,11 @@ class CheapestPeriod {
 
   /// `elliptic` if no formula suffices. Throws InvalidInput unless amplitude >= 0.
   PeriodMethod method(double amplitude) const;
+
+  /// T/T0 alone, within the tolerance (the closed form: within its own error). Some ten nanoseconds, where
+  /// the functions below pay 0.5 microseconds for the true error of a formula. Throws InvalidInput unless 0
+  /// <= amplitude <= 3.141592653589793.
+  double ratio(double amplitude) const;
 
   Period of_amplitude(double amplitude, const Eigenfrequency& alpha = {}) const;
   Period of_from_top(double from_top, const Eigenfrequency& alpha = {}) const;

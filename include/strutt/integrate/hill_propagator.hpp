@@ -15,14 +15,24 @@ struct HillStepPlan {
 };
 inline constexpr int kMostHillSteps = 100'000;
 
-/// The cheaper of the two orders p for an expected error of `tolerance` in the propagator of Y'' + W Y = 0
-/// over [from, to], relative to its largest entry in the state (Y, Y'/kappa):
-///   error ~ c_p h^p integral |W| (sqrt|W| + k)^(p-1) dtheta,   k = 0.7 times the highest order of the
-///   harmonics of W.
+/// Plans for equations Y'' + W Y = 0 over an interval of the given length, W with harmonics up to
+/// `highest_order`: the cheaper of the orders p for an expected error of `tolerance` in the propagator,
+/// relative to its largest entry in the state (Y, Y'/kappa):
+///   error ~ c_p h^p length B (sqrt B + k)^(p-1),   B >= |W|,   k = 0.7 highest_order.
 /// The formula was found by trial (delta to 1e4, epsilon to 1e3, harmonics to order 20) and is no bound: what
-/// was reached is known from a second run with half the steps. Depends on the equation only, never on what it
-/// is computed together with.
-HillStepPlan plan_hill_steps(const PeriodicFunction& w, double from, double to, double tolerance);
+/// was reached is known from a second run with half the steps. A plan depends on its equation only, never on
+/// what it is computed together with.
+class HillStepPlanner {
+ public:
+  HillStepPlanner(int highest_order, double length, double tolerance);
+
+  /// For W with |W| <= `bound`.
+  HillStepPlan plan(double bound) const;
+
+ private:
+  std::vector<double> limits_;  // ascending: the largest bounds for which the plans serve
+  std::vector<HillStepPlan> plans_;
+};
 
 /// The error of n steps seen in a run of n/2 is their difference divided by 2^p - 1; this bound of it, as a
 /// share of the difference, leaves room for steps at which the next order still counts.

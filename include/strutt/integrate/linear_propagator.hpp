@@ -32,7 +32,9 @@ struct Propagation {
 /// entry. kTruncationSafety is the share for the second, more accurate run of a LinearPropagator. Compare results as far down the line as possible: errors of single propagators
 /// that cancel in a product then do so in the estimate as well.
 inline constexpr double kTruncationSafety = 6.0;
-void add_truncation(BoundedMatrix& matrix, const ScaledMatrix& check, double share = kTruncationSafety);
+template <typename Matrix>
+void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check,
+                    double share = kTruncationSafety);
 
 /// Fundamental matrices of y' = A(t) y with n states, integrated from the identity by SUNDIALS, and a second time for
 /// the error: ARKODE at 3/100 of the tolerance of an ARKODE run, or at the tolerance of a CVODE run, which is far less

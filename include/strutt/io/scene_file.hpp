@@ -32,7 +32,7 @@ struct SceneFile {
 /// the key, the allowed range and, for an unknown key or name, the nearest known one: malformed TOML, unknown keys or
 /// tables, wrong types, missing keys, two models, values outside their range (NaN and infinities included), forms
 /// that exclude each other, units of the wrong dimension, nesting deeper than 32, more than 1 MiB, bytes that are not UTF-8.
-/// The values are validated (strutt::validate). Throws InputOutputError if the file cannot be read.
+/// The values are validated (strutt::validate), and that they make an equation (strutt::linear_model). Throws InputOutputError if the file cannot be read.
 SceneFile read_scene(const std::filesystem::path& path);
 
 /// The same from text; `name` stands for the file in messages; sample files are looked for beside `name`.

@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include "floquet/assembly.hpp"
+#include "floquet/propagators.hpp"
+#include "floquet/undamped_hill.hpp"
+
+namespace strutt {
+namespace {
+
+/// The propagators of the pieces of one equation.
+Propagators<Eigen::Matrix2d> collected(std::span<SplittingPropagation> pieces) {
+  Propagators<Eigen::Matrix2d> result;
+  result.truncation_share = 0.0;
+  for (auto& piece : pieces) {
+    if (piece.cost.steps == 0) result.outcome = Outcome::step_limit;
+    result.cost += piece.cost;
+    result.estimate_cost += piece.check_cost;
+    result.truncation_share = std::max(result.truncation_share, piece.truncation_share);
+    result.append(std::move(piece.matrix), std::move(piece.check));
+  }
+  return result;
+}
+
+/// One attempt at the equations that `wanted` names.
+void attempt(SplittingPropagators& tables, const std::vector<UndampedHill>& equations,
+             const std::vector<std::size_t>& wanted, double local_tolerance, bool with_check,
+             std::vector<HillMonodromy>& results) {
+  std::vector<SplittingJob> jobs;
+  for (const std::size_t i : wanted) {
+    const auto& y = equations[i];
+    for (const auto& piece : y.pieces) {
+      jobs.push_back({y.w.piece(0.5 * (piece.from + piece.to)), piece, y.kappa, y.coefficient_error});
+    }
+  }
+  auto found = tables.propagate(jobs, local_tolerance, with_check);
+  std::size_t begin = 0;
+  for (const std::size_t i : wanted) {
+    const auto& pieces = equations[i].pieces;
+    auto made = equations[i].assembled(collected({found.data() + begin, pieces.size()}), pieces);
+    made.cost += results[i].cost;
+    made.estimate_cost += results[i].estimate_cost;
+    results[i] = std::move(made);
+    begin += pieces.size();
+  }
+}
+
+}  // namespace
+
+std::vector<HillMonodromy> splitting_monodromies(SplittingPropagators& tables,
+                                                 std::span<const HillEquation> equations,
+                                                 const MonodromyOptions& options) {
+  const std::vector<UndampedHill> undamped(equations.begin(), equations.end());
+  std::vector<HillMonodromy> results(equations.size());
+  std::vector<std::size_t> wanted(equations.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
+  const ToleranceLadder ladder = tolerance_ladder(Method::propagator, options.tolerance);
+  double local = ladder.first;
+  const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
+  while (!wanted.empty() && !cancelled()) {
+    attempt(tables, undamped, wanted, local, options.estimate_error, results);
+    const bool last = local <= ladder.lowest;
+    std::erase_if(wanted, [&](std::size_t i) {
+      return last || results[i].outcome != Outcome::converged || results[i].error <= options.tolerance;
+    });
+    local = std::max(kLadderStep * local, ladder.lowest);
+  }
+  for (const std::size_t i : wanted) results[i].outcome = Outcome::cancelled;
+  for (auto& result : results) {
+    judge(result, options.tolerance);
+    result.method = Method::propagator;
+  }
+  return results;
+}
+
+}  // namespace strutt
