@@ -5,54 +5,13 @@
 #include <functional>
 
 #include "exit_code.hpp"
+#include "help_texts.hpp"
 #include "recorded_command.hpp"
 #include "strutt/io/provenance.hpp"
 #include "unknown_words.hpp"
 
 namespace strutt::app {
 namespace {
-
-constexpr const char* kExitCodes = R"(
-Exit codes: 0 done; 1 done, but something asked for is unresolved or not converged; 2 wrong flag; 3 wrong scene or
-  CSV file; 4 over the memory budget; 5 input/output; 6 numerical failure; 7 internal; 128+n signal n.)";
-
-constexpr const char* kChartExample = R"(
-Example:
-  printf '[mathieu]\nepsilon = 0.5\n' > scene.toml
-  strutt chart scene.toml --x mathieu.delta=-1:5:60 --y mathieu.epsilon=0:6:40 -o chart.csv
-)";
-
-constexpr const char* kStabilityExample = R"(
-Example:
-  printf '[mathieu]\ndelta = 1\nepsilon = 0.5\n' > scene.toml
-  printf 'mathieu.delta\n0.2\n0.3\n' > points.csv
-  strutt stability scene.toml --points points.csv
-)";
-
-constexpr const char* kMotionExample = R"(
-Example:
-  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n' > scene.toml
-  strutt motion scene.toml --angle "30 deg" --velocity 0 --duration 2 --samples 21
-)";
-
-constexpr const char* kNormalFormExample = R"(
-Example (the pendulum: delta = 0, beta = -1/16):
-  printf 'alpha,f2_30\n1,0.16666666666666667\n' > coefficients.csv
-  strutt normal-form --points coefficients.csv
-)";
-
-constexpr const char* kPeriodExample = R"(
-Example:
-  strutt period --amplitude "90 deg" --compare
-  printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
-)";
-
-constexpr const char* kPortraitExample = R"(
-Examples:
-  strutt portrait --cells 2 -o portrait.csv
-  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.02\n' > scene.toml
-  strutt portrait scene.toml --curves 10 --sections 20 -o sections.npz || test $? -eq 1
-)";
 
 /// The flags of every command, with or without a scene.
 void add_output(CLI::App& command, CommonArguments& arguments) {
@@ -94,7 +53,7 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
   auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
   add_scene(*command, arguments);
-  add_common(*command, arguments, "largest error of trace and M", "propagator, cvode, arkode, exact");
+  add_common(*command, arguments, "largest error of trace and M", "surrogate, propagator, cvode, arkode, exact");
   command
       ->add_option("--x", arguments.x,
                    "horizontal axis: parameter path, ends, number of points, :log for a log axis")
@@ -190,6 +149,21 @@ CLI::App* add_normal_form(CLI::App& app, NormalFormArguments& arguments) {
   return command;
 }
 
+CLI::App* add_characteristic(CLI::App& app, CharacteristicArguments& arguments) {
+  auto* command = app.add_subcommand("characteristic", "characteristic values of Mathieu's equation");
+  command->add_option("--order", arguments.order, "orders n of a_n, b_n, 0 <= A <= B <= 10000")
+      ->required()
+      ->type_name("A:B");
+  command->add_option("--q", arguments.q, "parameters of x'' + (a - 2 q cos 2t) x = 0, -1e8 to 1e8")
+      ->required()
+      ->type_name("Q[,Q...]");
+  command->add_option("--method", arguments.method, "auto (default), fourier")->type_name("M");
+  command->add_option("--tolerance", arguments.tolerance)->group("");  // refused with its reason
+  add_output(*command, arguments);
+  command->footer(std::string(kCharacteristicExample) + kExitCodes);
+  return command;
+}
+
 CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   auto* command = app.add_subcommand("period", "period of the free pendulum at an amplitude");
   command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
@@ -262,10 +236,14 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   PeriodArguments period;
   PortraitArguments portrait;
   NormalFormArguments normal_form;
-  const std::vector<Command> commands{
-      command(add_chart, app, chart),       command(add_stability, app, stability),
-      command(add_motion, app, motion),     command(add_period, app, period),
-      command(add_portrait, app, portrait), command(add_normal_form, app, normal_form)};
+  CharacteristicArguments characteristic;
+  const std::vector<Command> commands{command(add_chart, app, chart),
+                                      command(add_stability, app, stability),
+                                      command(add_motion, app, motion),
+                                      command(add_period, app, period),
+                                      command(add_portrait, app, portrait),
+                                      command(add_normal_form, app, normal_form),
+                                      command(add_characteristic, app, characteristic)};
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto parsed = app.get_subcommands();
@@ -279,7 +257,8 @@ Arguments parse_command_line(int argc, const char* const* argv) {
     return Information{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
     // A misspelt flag often is why a required one seems to be missing.
-    if (chosen() != nullptr && !chosen()->remaining().empty()) refuse_extras(*chosen(), chosen()->remaining());
+    if (chosen() != nullptr && !chosen()->remaining().empty())
+      refuse_extras(*chosen(), chosen()->remaining());
     throw UsageError(error.what());
   }
   if (chosen() == nullptr) refuse_command(app.remaining(), command_names(app));
