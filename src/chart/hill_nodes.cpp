@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
-
-#include "strutt/integrate/hill_propagator.hpp"
 
 namespace strutt {
 namespace {
@@ -16,18 +13,10 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kUnit = 0x1p-53;
-constexpr std::size_t kLanes = 64;  // of a job
-constexpr std::size_t kMostTables = 256;
+constexpr std::size_t kLanes = 512;  // of a job
+constexpr std::size_t kMostFamilies = 16;
 
 using Points = std::vector<std::optional<PointEquation>>;
-
-/// The points that share a plan, and its tables.
-struct Group {
-  HillStepPlan plan;
-  std::vector<std::size_t> members;
-  const HillPropagator* full = nullptr;
-  const HillPropagator* half = nullptr;
-};
 
 /// The functions of the phase that occur: k for cos(k theta), -k for sin(k theta).
 std::vector<int> basis_of(const Points& points) {
@@ -40,23 +29,6 @@ std::vector<int> basis_of(const Points& points) {
     }
   }
   return {names.begin(), names.end()};
-}
-
-std::vector<Group> groups_of(const Points& points, double length, double tolerance) {
-  std::map<int, HillStepPlanner> planners;  // by the highest order
-  std::map<std::pair<int, int>, std::vector<std::size_t>> members;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i]) continue;
-    const auto& w = points[i]->equation.coefficient;
-    const int highest = w.highest_order();
-    const auto plan = planners.try_emplace(highest, highest, length, tolerance).first->second.plan(w.bound());
-    if (plan.steps > 0) members[{plan.order, plan.steps}].push_back(i);
-  }
-  std::vector<Group> groups;
-  for (auto& [key, list] : members) {
-    groups.push_back({{key.first, key.second}, std::move(list)});
-  }
-  return groups;
 }
 
 /// Means and weights of some lanes.
@@ -85,33 +57,27 @@ struct Lanes {
   }
 };
 
-/// The propagator of one lane in the state (Y, Y'/kappa).
-Eigen::Matrix2d scaled(const HillPropagators& lanes, std::size_t l, double kappa, long exponent) {
-  const auto shift = static_cast<int>(std::clamp(lanes.exponent[l] - exponent, -5000L, 5000L));
-  return Eigen::Matrix2d{{std::ldexp(lanes.u1[l], shift), std::ldexp(lanes.u2[l], shift) * kappa},
-                         {std::ldexp(lanes.du1[l], shift) / kappa, std::ldexp(lanes.du2[l], shift)}};
-}
-
-/// `rounding`: relative to the largest entry. `share`: of the difference to the run with half of the steps.
-PropagatorSample sample_of(const PointEquation& point, const HillPropagators& full,
-                           const HillPropagators& half, std::size_t l, double length, double rounding,
-                           double share) {
+/// One lane of a group.
+PropagatorSample sample_of(const PointEquation& point, const HillGroup& group, std::size_t l, double length) {
   PropagatorSample result;
-  result.exponent = full.exponent[l];
+  const auto& r = group.result;
+  const double kappa = point.kappa;
+  result.exponent = r.exponent[l];
   result.half_damping = point.half_damping;
-  result.kappa = point.kappa;
+  result.kappa = kappa;
   result.shifted = point.shifted;
-  const Eigen::Matrix2d value = scaled(full, l, point.kappa, result.exponent);
-  const double difference = (value - scaled(half, l, point.kappa, result.exponent)).cwiseAbs().maxCoeff();
+  result.right_hand_sides = static_cast<long>(group.plan.steps) * group.plan.terms;
+  const Eigen::Matrix2d value{{r.u1[l], kappa * r.u2[l]}, {r.du1[l] / kappa, r.du2[l]}};
+  Eigen::Matrix2d error{{r.u1_error[l], kappa * r.u2_error[l]}, {r.du1_error[l] / kappa, r.du2_error[l]}};
   const double size = value.cwiseAbs().maxCoeff();
   const auto& w = point.equation.coefficient;
-  const double evaluation = (2.0 + 2.0 * pi * w.highest_order()) * kUnit;
+  const double evaluation = HillSeries::evaluation_error(w.highest_order());
   const double coefficients = (evaluation + point.equation.coefficient_error) * length * std::sqrt(w.bound());
-  const double error = share * difference + size * (rounding + coefficients);
-  const auto canonical = at_kappa(value, Eigen::Matrix2d::Constant(error), 1.0 / point.kappa);
+  error.array() += size * (kUnit + coefficients);
+  const auto canonical = at_kappa(value, error, 1.0 / kappa);
   result.value = canonical.value;
   result.error = canonical.error;
-  result.valid = std::isfinite(error) && std::isfinite(size);
+  result.valid = error.allFinite() && std::isfinite(size);
   return result;
 }
 
@@ -119,52 +85,48 @@ PropagatorSample sample_of(const PointEquation& point, const HillPropagators& fu
 
 HillNodes::HillNodes(const Scene& scene, const Axis& x, const Axis& y,
                      const std::optional<double>& even_phase, const ParallelOptions& parallel)
-    : parallel_(parallel), model_(scene, x, y, even_phase), length_(even_phase ? pi : 2.0 * pi) {}
+    : parallel_(parallel),
+      model_(scene, x, y, even_phase),
+      length_(even_phase ? pi : 2.0 * pi),
+      families_(static_cast<std::size_t>(thread_count(parallel))) {}
 
-const HillPropagator& HillNodes::table(const HillStepPlan& plan, const std::vector<int>& harmonics) {
-  const std::tuple key{plan.order, plan.steps, harmonics};
-  const auto found = tables_.find(key);
-  if (found != tables_.end()) return found->second;
+HillFamily& HillNodes::family(std::size_t slot, double tolerance, const std::vector<int>& harmonics) {
+  auto& own = families_[slot];
+  const std::pair key{tolerance, harmonics};
+  const auto found = own.find(key);
+  if (found != own.end()) return found->second;
+  if (own.size() >= kMostFamilies) own.clear();
   std::vector<PeriodicFunction> basis;
   for (const int name : harmonics) {
     basis.push_back(
         PeriodicFunction::fourier(0.0, {{std::abs(name), name > 0 ? 1.0 : 0.0, name > 0 ? 0.0 : 1.0}}));
   }
-  return tables_.emplace(key, HillPropagator(plan, basis, 0.0, length_)).first->second;
+  return own.try_emplace(key, std::move(basis), 0.0, length_, tolerance).first->second;
 }
 
 bool HillNodes::sample(const std::vector<std::array<double, 2>>& values, double tolerance,
                        std::vector<PropagatorSample>& result) {
   result.assign(values.size(), {});
   Points points;
-  for (const auto& value : values) points.push_back(model_.at(value[0], value[1]));
+  std::vector<std::size_t> valid;
+  for (const auto& value : values) {
+    points.push_back(model_.at(value[0], value[1]));
+    if (points.back()) valid.push_back(points.size() - 1);
+  }
   const auto basis = basis_of(points);
-  auto groups = groups_of(points, length_, tolerance);
-  if (tables_.size() + 2 * groups.size() > kMostTables) tables_.clear();
-  for (auto& group : groups) {
-    group.full = &table(group.plan, basis);
-    group.half = &table({group.plan.order, group.plan.steps / 2}, basis);
-  }
-  std::vector<std::pair<const Group*, std::size_t>> jobs;
-  for (const auto& group : groups) {
-    for (std::size_t first = 0; first < group.members.size(); first += kLanes)
-      jobs.emplace_back(&group, first);
-  }
-  const bool complete = parallel_for(jobs.size(), parallel_, [&](std::size_t job, int) {
-    const auto& [group, first] = jobs[job];
-    const auto members =
-        std::span(group->members).subspan(first, std::min(kLanes, group->members.size() - first));
+  const std::size_t jobs = (valid.size() + kLanes - 1) / kLanes;
+  const bool complete = parallel_for(jobs, parallel_, [&](std::size_t job, int slot) {
+    const std::size_t first = job * kLanes;
+    const auto members = std::span(valid).subspan(first, std::min(kLanes, valid.size() - first));
     const Lanes lanes(points, members, basis);
-    HillPropagators full, half;
-    group->full->propagate(lanes.batch(), full);
-    group->half->propagate(lanes.batch(), half);
-    const double rounding = group->full->rounding(), share = halving_share(group->plan.order);
-    for (std::size_t l = 0; l < members.size(); ++l) {
-      const auto& point = *points[members[l]];
-      auto& sample = result[members[l]];
-      sample = sample_of(point, full, half, l, length_, rounding, share);
-      sample.right_hand_sides = group->full->evaluations() + group->half->evaluations();
-    }
+    family(static_cast<std::size_t>(slot), tolerance, basis)
+        .propagate(lanes.batch(), [&](const HillGroup& group) {
+          if (group.plan.steps == 0) return;
+          for (std::size_t l = 0; l < group.lanes.size(); ++l) {
+            const std::size_t member = members[group.lanes[l]];
+            result[member] = sample_of(*points[member], group, l, length_);
+          }
+        });
   });
   return complete && !(parallel_.cancel != nullptr && parallel_.cancel->load());
 }

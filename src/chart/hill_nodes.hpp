@@ -2,18 +2,17 @@
 
 #include <array>
 #include <map>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "chart/hill_model.hpp"
 #include "strutt/base/parallel.hpp"
-#include "strutt/integrate/hill_propagator.hpp"
+#include "strutt/integrate/hill_family.hpp"
 
 namespace strutt {
 
-/// Propagators of Hill equations at many points at once: the splitting of integrate/hill_propagator over all
-/// points that need the same number of steps, checked by a run with half of them. The same bits for any
-/// number of threads.
+/// Propagators of Hill equations at many points at once: the power series of integrate/hill_family, the
+/// points with the same plan side by side. The same bits for any number of threads.
 class HillNodes {
  public:
   HillNodes(const Scene& scene, const Axis& x, const Axis& y, const std::optional<double>& even_phase,
@@ -25,13 +24,13 @@ class HillNodes {
               std::vector<PropagatorSample>& result);
 
  private:
-  const HillPropagator& table(const HillStepPlan& plan, const std::vector<int>& harmonics);
+  HillFamily& family(std::size_t slot, double tolerance, const std::vector<int>& harmonics);
 
   ParallelOptions parallel_;
   HillModel model_;
   double length_;  // of the phase: half a period or a whole one
-  std::map<std::tuple<int, int, std::vector<int>>, HillPropagator>
-      tables_;  // order, steps; k: cos(k theta), -k: sin
+  // of each thread, by tolerance and harmonics; k: cos(k theta), -k: sin
+  std::vector<std::map<std::pair<double, std::vector<int>>, HillFamily>> families_;
 };
 
 }  // namespace strutt

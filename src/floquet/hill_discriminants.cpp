@@ -15,7 +15,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Chosen lanes of a batch.
@@ -52,7 +51,7 @@ HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance) 
   MonodromyOptions{.tolerance = tolerance}.validate();
   const auto basis = cosines(orders);
   const int highest = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
-  coefficient_error_ = (2.0 + 2.0 * pi * highest) * kUnit;
+  coefficient_error_ = HillSeries::evaluation_error(highest);
   const auto [first, lowest] = tolerance_ladder(Method::propagator, tolerance);
   for (double local = first;; local = std::max(kLadderStep * local, lowest)) {
     families_.emplace_back(basis, 0.0, pi, local);

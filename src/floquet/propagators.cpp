@@ -14,7 +14,8 @@ constexpr double kSeriesShare = 0.5;
 
 }  // namespace
 
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order) {
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance,
+                                     int highest_order) {
   return {.local_tolerance = local_tolerance,
           .highest_frequency = static_cast<double>(highest_order),
           .estimate_error = options.estimate_error,

@@ -59,7 +59,9 @@ void unpack(const HillGroup& group, std::span<const SeriesJob> jobs, std::span<c
         Eigen::Matrix2d{{r.u1_error[l], kappa * r.u2_error[l]}, {r.du1_error[l] / kappa, r.du2_error[l]}};
     const double size = matrix.value.mantissa.cwiseAbs().maxCoeff();
     const double radians = std::sqrt(job.w.bound()) * (job.piece.to - job.piece.from);
-    matrix.error.array() += size * (kUnit + job.coefficient_error * radians);
+    matrix.error.array() +=
+        size *
+        (kUnit + (job.coefficient_error + HillSeries::evaluation_error(job.w.highest_order())) * radians);
     matrix.normalise();
     cost = {.steps = group.plan.steps,
             .rejections = 0,

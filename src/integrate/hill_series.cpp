@@ -10,15 +10,14 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-
 /// Writes r^(j+2)/j! f^(j)(theta) for all j.
-void expand(const PeriodicFunction& f, double theta, double r, std::span<double> series) {
+void expand(const PeriodicFunction& f, long double theta, double r, std::span<double> series) {
   for (auto& term : series) term = 0.0;
   series[0] = r * r * f.mean();
   for (const auto& h : f.harmonics()) {
-    const double angle = h.order * theta, c = std::cos(angle), s = std::sin(angle);
-    const double negligible = 4.0 * kUnit * (1.0 + std::abs(angle)) * std::hypot(h.cosine, h.sine);
+    const long double angle = h.order * theta;
+    const auto c = static_cast<double>(std::cos(angle)), s = static_cast<double>(std::sin(angle));
+    const double negligible = HillSeries::evaluation_error(h.order) * std::hypot(h.cosine, h.sine);
     double value = h.cosine * c + h.sine * s, slope = h.sine * c - h.cosine * s;
     if (std::abs(value) <= negligible) value = 0.0;
     if (std::abs(slope) <= negligible) slope = 0.0;
@@ -53,7 +52,7 @@ HillSeries::HillSeries(const HillSeriesPlan& plan, std::span<const PeriodicFunct
   series_.resize(static_cast<std::size_t>(plan.steps) * functions_ * terms);
   std::span<double> rest(series_);
   for (int step = 0; step < plan.steps; ++step) {
-    const double middle = from + (to - from) * ((step + 0.5) / plan.steps);
+    const long double middle = from + (static_cast<long double>(to) - from) * (step + 0.5L) / plan.steps;
     bool odd_only = true;
     for (const auto& f : basis) {
       const auto series = rest.first(terms);

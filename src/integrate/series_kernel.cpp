@@ -12,9 +12,9 @@ namespace strutt::detail {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-constexpr double kRoundingOnce = 2.0;    // units: what the sums and their coefficients cost,
-constexpr double kRoundingGrowth = 0.5;  // and for each g^2 more
-constexpr double kProductRounding = 4.0 * kUnit;
+constexpr double kRoundingOnce = 1.5;    // units: what the sums and their coefficients cost,
+constexpr double kRoundingGrowth = 0.3;  // and for each g^2 more
+constexpr double kProductRounding = 3.0 * kUnit;
 constexpr double kFallOfTerms =
     0.02;  // a last pair smaller than so much of the one before it is small by chance
 constexpr double kTailSafety = 3.0;

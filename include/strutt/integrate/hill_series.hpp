@@ -10,7 +10,7 @@ namespace strutt {
 /// How an interval is crossed: in so many equal steps, by power series with so many terms.
 struct HillSeriesPlan {
   int steps = 0;  ///< 1 ... kMostHillSteps; 0: no plan
-  int terms = 0;  ///< even, 6 ... 48: the order of the method
+  int terms = 0;  ///< of each series, even, 6 ... 48; the order of the method is terms - 2
 };
 inline constexpr int kMostHillSteps = 20'000;
 
@@ -50,6 +50,10 @@ class HillSeries {
   void propagate(const HillBatch& batch, HillPropagators& result) const;
 
   const HillSeriesPlan& plan() const { return plan_; }
+
+  /// Bound of the relative error of W from its functions, of harmonics up to `highest_order` and over phases within
+  /// [-2 pi, 2 pi]: of their coefficients in the table, and of pi itself.
+  static double evaluation_error(int highest_order) { return (3.0 + 2.5 * highest_order) * 0x1p-53; }
 
  private:
   HillSeriesPlan plan_;
