@@ -16,7 +16,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kShareBeforeTrace = 0.2;
+constexpr double kShareBeforeTrace = 0.5;
+constexpr std::size_t kFunctionsTogether = 8;  // rows of a product that keep its sums in registers
 
 bool contains(const std::vector<Layer>& layers, Layer layer) {
   return std::find(layers.begin(), layers.end(), layer) != layers.end();
@@ -51,6 +52,10 @@ bool is_plain(const SurrogateBox& box) {
   const auto exponent = static_cast<double>(box.exponent);
   return std::abs(exponent) < 500.0 &&
          2.0 * (std::log(2.0 * size) + exponent * std::numbers::ln2) < kMostPlainLog;
+}
+
+std::size_t offset_of(const GridPiece& piece, std::size_t row, const ChartStrip& strip) {
+  return (row - strip.first_row) * strip.columns + piece.first_column;
 }
 
 /// The results for a layer; none for the outcome, which is the same for all.
@@ -102,64 +107,89 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
   const bool complete = parallel_for(pieces.size(), parallel_, [&](std::size_t k, int slot) {
     counts[k] = fill_piece(pieces[k], strip, workers_[static_cast<std::size_t>(slot)]);
   });
-  for (const auto& count : counts) {
-    summary.cells += count.cells;
-    summary.interpolated += count.cells;
-    summary.unresolved += count.unresolved;
-    summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += count.cells;
-    summary.largest_error = std::max(summary.largest_error, count.largest_error);
-  }
+  Count all;
+  for (const auto& count : counts) all += count;
+  summary.cells += all.cells;
+  summary.interpolated += all.cells;
+  summary.unresolved += all.unresolved;
+  summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += all.cells;
+  summary.largest_error = std::max(summary.largest_error, all.largest_error);
   rest.clear();
-  std::size_t filled = 0;
-  for (const auto& count : counts) filled += count.cells;
-  if (filled == done_.size()) return complete;
+  if (all.cells == done_.size()) return complete;
   for (std::size_t cell = 0; cell < done_.size(); ++cell) {
     if (done_[cell] == 0) rest.push_back(cell);
   }
   return complete;
 }
 
+SurrogateCells::Count& SurrogateCells::Count::operator+=(const Count& other) {
+  cells += other.cells;
+  unresolved += other.unresolved;
+  largest_error = std::max(largest_error, other.largest_error);
+  return *this;
+}
+
 SurrogateCells::Count SurrogateCells::fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker) {
-  grid_.evaluate(piece, worker.factors);
-  if (worker.matrix) return fill_matrices(piece, strip, worker);
-  if (grid_.box(piece).coefficients.size() == 1) return fill_traces(piece, strip, worker);
-  compute_cells(piece, worker);
-  return write(piece, worker.cells, strip);
+  const std::size_t functions = grid_.box(piece).coefficients.size();
+  if (functions == 1) return fill_traces(piece, strip, worker);
+  const std::size_t together = std::max<std::size_t>(1, kFunctionsTogether / functions);
+  worker.factors.resize(together * functions * GridPiece::kMostColumns);
+  Count count;
+  for (std::size_t first = 0; first < piece.rows; first += together) {
+    const std::size_t rows = std::min(together, piece.rows - first);
+    grid_.evaluate(piece, first, rows, worker.factors.data(), GridPiece::kMostColumns);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const PieceRow row{piece, piece.first_row + first + r,
+                         worker.factors.data() + r * functions * GridPiece::kMostColumns};
+      if (worker.matrix) {
+        count += fill_matrices(row, strip, worker);
+      } else {
+        compute_cells(row, worker);
+        count += write(row, worker.cells, strip);
+      }
+    }
+  }
+  return count;
 }
 
 /// trace M = exp(-h) D, which is all that is asked for.
 SurrogateCells::Count SurrogateCells::fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker) {
-  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
-  double* const traces = worker.factors.values.data();
-  if (half_damping_.largest() > 0.0) {
-    worker.columns.set(half_damping_, kappa_square_, piece.row, piece.first_column, piece.columns);
-    worker.columns.give(worker.cells);
-    for (std::size_t c = 0; c < piece.columns; ++c) traces[c] *= worker.cells.damping.decay[c];
-  }
+  const std::size_t offset = offset_of(piece, piece.first_row, strip);
   for (std::size_t l = 0; l < request_.layers.size(); ++l) {
     double* const values = strip.values[l].data() + offset;
     if (request_.layers[l] == Layer::discriminant) {
-      std::copy_n(traces, piece.columns, values);
+      grid_.evaluate(piece, 0, piece.rows, values, strip.columns);
+      if (half_damping_.largest() > 0.0) damp(piece, values, strip.columns, worker);
     } else {
-      std::fill_n(values, piece.columns, static_cast<double>(Outcome::converged));
+      for (std::size_t r = 0; r < piece.rows; ++r)
+        std::fill_n(values + r * strip.columns, piece.columns, static_cast<double>(Outcome::converged));
     }
   }
-  std::fill_n(done_.begin() + static_cast<std::ptrdiff_t>(offset), piece.columns, 1);
-  return {.cells = piece.columns, .largest_error = grid_.box(piece).error[0] + 8.0 * 0x1p-53};
+  for (std::size_t r = 0; r < piece.rows; ++r)
+    std::fill_n(&done_[offset + r * strip.columns], piece.columns, 1);
+  return {.cells = piece.rows * piece.columns, .largest_error = grid_.box(piece).error[0] + 8.0 * 0x1p-53};
 }
 
-SurrogateCells::Count SurrogateCells::fill_matrices(const GridPiece& piece, ChartStrip& strip,
-                                                    Worker& worker) {
+void SurrogateCells::damp(const GridPiece& piece, double* values, std::size_t stride, Worker& worker) const {
+  for (std::size_t r = 0; r < piece.rows; ++r) {
+    worker.columns.set(half_damping_, kappa_square_, piece.first_row + r, piece.first_column, piece.columns);
+    worker.columns.give(worker.cells);
+    for (std::size_t c = 0; c < piece.columns; ++c) values[r * stride + c] *= worker.cells.damping.decay[c];
+  }
+}
+
+SurrogateCells::Count SurrogateCells::fill_matrices(const PieceRow& row, ChartStrip& strip, Worker& worker) {
+  const GridPiece& piece = row.piece;
   const SurrogateBox& box = grid_.box(piece);
-  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
-  const double y = request_.y.value(piece.row);
+  const std::size_t offset = offset_of(piece, row.row, strip);
+  const double y = request_.y.value(row.row);
   const Eigen::MatrixXd error = error_matrix(box);
   Eigen::MatrixXd value = error;  // of the same shape
   Count count;
   for (std::size_t c = 0; c < piece.columns; ++c) {
     for (Eigen::Index i = 0, f = 0; i < value.rows(); ++i) {
       for (Eigen::Index j = 0; j < value.cols(); ++j, ++f)
-        value(i, j) = worker.factors.values[static_cast<std::size_t>(f) * FactorRow::stride + c];
+        value(i, j) = row.factors[static_cast<std::size_t>(f) * GridPiece::kMostColumns + c];
     }
     const auto cell = worker.matrix->assess(request_.x.value(piece.first_column + c), y, box, value, error);
     // with more than two states the engine, too, leaves open what structure alone keeps at the edge
@@ -175,20 +205,21 @@ SurrogateCells::Count SurrogateCells::fill_matrices(const GridPiece& piece, Char
   return count;
 }
 
-void SurrogateCells::compute_cells(const GridPiece& piece, Worker& worker) const {
+void SurrogateCells::compute_cells(const PieceRow& row, Worker& worker) const {
+  const GridPiece& piece = row.piece;
   const SurrogateBox& box = grid_.box(piece);
   CellRow& cells = worker.cells;
   cells.count = piece.columns;
-  for (std::size_t f = 0; f < 4; ++f) cells.factors[f] = worker.factors.values.data() + f * FactorRow::stride;
+  for (std::size_t f = 0; f < 4; ++f) cells.factors[f] = row.factors + f * GridPiece::kMostColumns;
   std::copy_n(box.error.begin(), 4, cells.factor_error.begin());
   cells.exponent = box.exponent;
   cells.box_kappa = box.kappa;
   cells.shifted = *surrogate_.even_phase() != 0.0;
   cells.with_growth = contains(request_.layers, Layer::growth);
   cells.with_winding = contains(request_.layers, Layer::winding);
-  worker.columns.set(half_damping_, kappa_square_, piece.row, piece.first_column, piece.columns);
+  worker.columns.set(half_damping_, kappa_square_, row.row, piece.first_column, piece.columns);
   worker.columns.give(cells);
-  if (cells.with_winding) count_turns(piece, worker);
+  if (cells.with_winding) count_turns(row, worker);
   cells.quarter_turns = worker.quarter_turns.data();
   if (is_plain(box) && half_damping_.largest() < kMostPlainLog) {
     plain_cells(cells);
@@ -198,25 +229,26 @@ void SurrogateCells::compute_cells(const GridPiece& piece, Worker& worker) const
 }
 
 /// The quadrant of (u2', u2) at one cell, whole turns counted.
-double SurrogateCells::quadrant_at(const GridPiece& piece, std::size_t c, Worker& worker) const {
-  const auto point = worker.model->at(request_.x.value(piece.first_column + c), request_.y.value(piece.row));
+double SurrogateCells::quadrant_at(const PieceRow& row, std::size_t c, Worker& worker) const {
+  const auto point =
+      worker.model->at(request_.x.value(row.piece.first_column + c), request_.y.value(row.row));
   if (!point) return std::numeric_limits<double>::quiet_NaN();
   const double u2 = worker.cells.factors[1][c], du2 = worker.cells.factors[3][c];
-  return std::floor(lifted_angle(point->equation.coefficient, pi, u2, du2, grid_.box(piece).kappa) /
+  return std::floor(lifted_angle(point->equation.coefficient, pi, u2, du2, grid_.box(row.piece).kappa) /
                     (0.5 * pi));
 }
 
 /// The quadrants along a piece: counted at both ends, between them followed from cell to cell by the signs of
 /// u2 and u2'. Where these leave a choice, or the ends do not agree, every cell is counted.
-void SurrogateCells::count_turns(const GridPiece& piece, Worker& worker) const {
+void SurrogateCells::count_turns(const PieceRow& row, Worker& worker) const {
   auto& turns = worker.quarter_turns;
-  turns.resize(FactorRow::stride);
+  turns.resize(GridPiece::kMostColumns);
   const auto pattern = [&](std::size_t c) {
     return sign_quadrant(worker.cells.factors[1][c], worker.cells.factors[3][c]);
   };
-  const std::size_t last = piece.columns - 1;
+  const std::size_t last = row.piece.columns - 1;
   bool certain = true;
-  double now = quadrant_at(piece, 0, worker);
+  double now = quadrant_at(row, 0, worker);
   int before = pattern(0);
   turns[0] = now + 0.5;
   for (std::size_t c = 1; c <= last; ++c) {
@@ -226,13 +258,13 @@ void SurrogateCells::count_turns(const GridPiece& piece, Worker& worker) const {
     before = here;
     turns[c] = now + 0.5;
   }
-  if (certain && (last == 0 || now == quadrant_at(piece, last, worker))) return;
-  for (std::size_t c = 0; c <= last; ++c) turns[c] = quadrant_at(piece, c, worker) + 0.5;
+  if (certain && (last == 0 || now == quadrant_at(row, last, worker))) return;
+  for (std::size_t c = 0; c <= last; ++c) turns[c] = quadrant_at(row, c, worker) + 0.5;
 }
 
 /// Copies what holds into the strip.
-SurrogateCells::Count SurrogateCells::write(const GridPiece& piece, const CellRow& cells, ChartStrip& strip) {
-  const std::size_t offset = (piece.row - strip.first_row) * strip.columns + piece.first_column;
+SurrogateCells::Count SurrogateCells::write(const PieceRow& row, const CellRow& cells, ChartStrip& strip) {
+  const std::size_t offset = offset_of(row.piece, row.row, strip);
   constexpr double unresolved = static_cast<double>(Verdict::unresolved);
   Count count;
   for (std::size_t c = 0; c < cells.count; ++c) {

@@ -33,9 +33,16 @@ class SurrogateCells {
   struct Count {
     std::size_t cells = 0, unresolved = 0;
     double largest_error = 0.0;
+    Count& operator+=(const Count& other);
+  };
+  /// A row of a piece with the functions there, f of cell c at factors[f * kMostColumns + c].
+  struct PieceRow {
+    const GridPiece& piece;
+    std::size_t row;
+    const double* factors;
   };
   struct Worker {
-    FactorRow factors;
+    std::vector<double> factors;
     CellRow cells;
     CellColumns columns;
     std::vector<double> quarter_turns;
@@ -43,13 +50,14 @@ class SurrogateCells {
     std::unique_ptr<MatrixCell> matrix;  // kind period
   };
 
-  Count fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  void compute_cells(const GridPiece& piece, Worker& worker) const;
-  void count_turns(const GridPiece& piece, Worker& worker) const;
-  double quadrant_at(const GridPiece& piece, std::size_t c, Worker& worker) const;
-  Count write(const GridPiece& piece, const CellRow& cells, ChartStrip& strip);
+  Count fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker);
+  void damp(const GridPiece& piece, double* values, std::size_t stride, Worker& worker) const;
+  Count fill_matrices(const PieceRow& row, ChartStrip& strip, Worker& worker);
+  void compute_cells(const PieceRow& row, Worker& worker) const;
+  void count_turns(const PieceRow& row, Worker& worker) const;
+  double quadrant_at(const PieceRow& row, std::size_t c, Worker& worker) const;
+  Count write(const PieceRow& row, const CellRow& cells, ChartStrip& strip);
 
   ChartRequest request_;
   bool with_verdict_ = false;
