@@ -32,6 +32,13 @@ void weigh(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, dou
   }
 }
 
+/// Pieces of about the same width, of whole tiles.
+std::size_t width_of_pieces(std::size_t columns) {
+  const std::size_t pieces = (columns + GridPiece::kMostColumns - 1) / GridPiece::kMostColumns;
+  const std::size_t width = (columns + pieces - 1) / pieces;
+  return (width + GridPiece::kTileColumns - 1) / GridPiece::kTileColumns * GridPiece::kTileColumns;
+}
+
 }  // namespace
 
 SurrogateGrid::SurrogateGrid(const std::vector<SurrogateBox>& boxes, const Axis& x, const Axis& y) {
@@ -109,29 +116,28 @@ std::vector<GridPiece> SurrogateGrid::pieces(std::size_t first_row, std::size_t 
     if (here.empty()) continue;
     if (box.basis.empty()) tabulate(box);
     contract(box, here);
+    const std::size_t width = width_of_pieces(box.columns.size());
     for (std::size_t row = here.first; row < here.last; row += GridPiece::kMostRows) {
-      for (std::size_t c = box.columns.first; c < box.columns.last; c += GridPiece::kMostColumns)
+      for (std::size_t c = box.columns.first; c < box.columns.last; c += width)
         result.push_back({b, row, std::min(GridPiece::kMostRows, here.last - row), c,
-                          std::min(GridPiece::kMostColumns, box.columns.last - c)});
+                          std::min(width, box.columns.last - c)});
     }
   }
   return result;
 }
 
-void SurrogateGrid::evaluate(const GridPiece& piece, std::size_t first, std::size_t rows, double* values,
-                             std::size_t stride) const {
+void SurrogateGrid::evaluate(const GridPiece& piece, double* values, std::size_t stride) const {
   const Box& box = boxes_[piece.box];
   const std::size_t functions = box.box->coefficients.size();
-  detail::evaluate(
-      {.basis = box.basis.data() + (piece.first_column - box.columns.first),
-       .basis_stride = box.columns.size(),
-       .weights = box.weights.data() + (piece.first_row + first - box.weighted.first) * functions,
-       .weights_stride = box.weighted.size() * functions,
-       .rows = rows * functions,
-       .columns = piece.columns,
-       .terms = static_cast<std::size_t>(box.box->coefficients[0].rows()),
-       .values = values,
-       .stride = stride});
+  detail::evaluate({.basis = box.basis.data() + (piece.first_column - box.columns.first),
+                    .basis_stride = box.columns.size(),
+                    .weights = box.weights.data() + (piece.first_row - box.weighted.first) * functions,
+                    .weights_stride = box.weighted.size() * functions,
+                    .rows = piece.rows * functions,
+                    .columns = piece.columns,
+                    .terms = static_cast<std::size_t>(box.box->coefficients[0].rows()),
+                    .values = values,
+                    .stride = stride});
 }
 
 }  // namespace strutt

@@ -3,16 +3,23 @@
 #include <cstddef>
 #include <vector>
 
+#include "strutt/chart/stability_chart.hpp"
 #include "strutt/chart/surrogate.hpp"
 
 namespace strutt {
 
 /// Some cells of a few rows of a chart that lie in one box.
 struct GridPiece {
-  static constexpr std::size_t kMostRows = 8, kMostColumns = 512;
+  static constexpr std::size_t kMostRows = 8, kMostColumns = 1920;
+  static constexpr std::size_t kTileColumns = 240;  ///< whole blocks of the tensor kernel
   std::size_t box = 0;
   std::size_t first_row = 0, rows = 0;
   std::size_t first_column = 0, columns = 0;
+
+  /// Where row r of the piece begins in a layer of the strip.
+  std::size_t offset(std::size_t r, const ChartStrip& strip) const {
+    return (first_row + r - strip.first_row) * strip.columns + first_column;
+  }
 };
 
 /// The boxes of a surrogate on the tensor grid of a chart: for some rows of a box a matrix product with the
@@ -27,11 +34,9 @@ class SurrogateGrid {
 
   const SurrogateBox& box(const GridPiece& piece) const { return *boxes_[piece.box].box; }
 
-  /// The functions that the box interpolates, at the cells of some rows of a piece of the rows last asked
-  /// for: function f of cell c of row r, counted in the piece, at values[((r - first) * functions + f) *
-  /// stride + c].
-  void evaluate(const GridPiece& piece, std::size_t first, std::size_t rows, double* values,
-                std::size_t stride) const;
+  /// The functions that the box interpolates, at a piece (or some cells of one) of the rows last asked for:
+  /// function f of cell c of row r, counted in the piece, at values[(r * functions + f) * stride + c].
+  void evaluate(const GridPiece& piece, double* values, std::size_t stride) const;
 
  private:
   struct Range {
