@@ -42,7 +42,7 @@ class Sizes {
   std::vector<Wave> waves_;
 };
 
-/// Where G(R) - (p-1) ln R is smallest.
+/// Where G(R) - (p+1) ln R is smallest.
 struct Radius {
   double least = std::numeric_limits<double>::infinity();
   double radius = 0.0;
@@ -55,11 +55,11 @@ std::array<Radius, kOrders> best_radii(const Sizes& stiffness, const Sizes& damp
     return std::max(std::sqrt(stiffness.at(r)) + damping.at(r), kLowestRate);
   };
   double radius = kHighestTaylorOrder / std::max(at_zero, kLowestRate), edge = rate(radius);
-  while (radius * edge > 0.5 * kLowestTaylorOrder) {
+  while (radius * edge > 0.7 * kLowestTaylorOrder) {
     const double growth = radius / 6.0 * (at_zero + 4.0 * rate(0.5 * radius) + edge);  // Simpson's rule
     for (int i = 0; i < kOrders; ++i) {
       auto& best = result[static_cast<std::size_t>(i)];
-      const double value = growth - (kLowestTaylorOrder + 2 * i - 1) * std::log(radius);
+      const double value = growth - (kLowestTaylorOrder + 2 * i + 1) * std::log(radius);
       if (value < best.least) best = {value, radius};
     }
     radius /= kRatioOfRadii;
@@ -81,18 +81,19 @@ TaylorStepPlan plan_taylor_steps(const TaylorEquation& equation, int half_period
   for (int i = 0; i < kOrders; ++i) {
     const int order = kLowestTaylorOrder + 2 * i;
     const auto [least, radius] = radii[static_cast<std::size_t>(i)];
-    // share n e^least (length/2n)^(p-1)/sqrt(2 pi (p-1)) = tolerance
-    const double excess = std::log(kTaylorTruncationShare / tolerance) + least +
-                          (order - 1) * std::log(0.5 * length) -
-                          0.5 * std::log(2.0 * std::numbers::pi * (order - 1));
+    // safety n e^least (length/2n)^(p+1)/sqrt(2 pi (p+1)) = tolerance
+    const double excess = std::log(kTaylorTruncationSafety / tolerance) + least +
+                          (order + 1) * std::log(0.5 * length) -
+                          0.5 * std::log(2.0 * std::numbers::pi * (order + 1));
     const double steps =
-        std::ceil(std::max({1.0, std::exp(excess / (order - 2)), 0.5 * rate * length / kLargestHalfStep,
+        std::ceil(std::max({1.0, std::exp(excess / order), 0.5 * rate * length / kLargestHalfStep,
                             0.5 * length / (kLargestShareOfRadius * radius)}));
     const double products = 0.5 * order * (order + 1) * (equation.damping.mean.size() > 0 ? 2.0 : 1.0);
     const double cost = steps * (products + kFixedCost);
     if (!(steps <= kMostTaylorSteps && cost < lowest_cost)) continue;
     lowest_cost = cost;
-    best = {order, static_cast<int>(steps)};
+    const double share = 0.5 * length / (steps * radius);
+    best = {order, static_cast<int>(steps), share * share};
   }
   return best;
 }

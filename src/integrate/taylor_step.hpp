@@ -93,6 +93,7 @@ class TaylorSteps : public TaylorPropagator::Steps {
       : order_(plan.order),
         steps_(plan.steps),
         half_periods_(half_periods),
+        decay_(plan.decay),
         tau_(half_periods * std::numbers::pi / (2.0 * plan.steps)),
         exponent_(std::ilogb(tau_)),
         stiffness_(equation.stiffness, tau_ * scale(), tau_, plan.order),
@@ -162,17 +163,27 @@ class TaylorSteps : public TaylorPropagator::Steps {
     const Full forward = even + odd, inverse = Full(even - odd).partialPivLu().inverse();
     const Full step = forward * inverse;
     Full error = kSeriesRounding * kUnit * ((step.cwiseAbs() * size + size) * inverse.cwiseAbs());
-    if (with_truncation) {
-      // To first order in the last two terms, F - F' and B - B', the shorter series differ by this from F
-      // B^-1.
-      const Full difference = ((last + before) - step * (last - before)) * inverse;
-      error.array() += kTaylorTruncationShare * difference.cwiseAbs().maxCoeff();
-    }
+    if (with_truncation) error.array() += truncation(step, inverse);
     BoundedMatrix result;
     result.value.mantissa = unscaled(step);
     result.error = unscaled(error);
     result.normalise();
     return result;
+  }
+
+  /// Bound of the truncation of a step F B^-1, for every entry.
+  double truncation(const Full& step, const Full& inverse) const {
+    const auto p = static_cast<std::size_t>(order_);
+    const auto pair = [this](std::size_t k) { return std::max(size_of_term(k), size_of_term(k - 1)); };
+    const double before = pair(p - 2), ratio = std::max({pair(p) / before, before / pair(p - 4), decay_});
+    // The step without the last two terms, to first order in them.
+    const Full last = stacked(p), odd = stacked(p - 1);
+    const Full difference = ((last + odd) - step * (last - odd)) * inverse;
+    return std::min(kTaylorTruncationSafety * ratio, 1.0) * difference.cwiseAbs().maxCoeff();
+  }
+
+  double size_of_term(std::size_t k) const {
+    return std::max(q_[k].cwiseAbs().maxCoeff(), v_[k].cwiseAbs().maxCoeff());
   }
 
   /// From (Q, scale Q') to (Q, Q').
@@ -184,7 +195,7 @@ class TaylorSteps : public TaylorPropagator::Steps {
   }
 
   int order_, steps_, half_periods_;
-  double tau_;
+  double decay_, tau_;
   int exponent_;
   TaylorCoefficients<D> stiffness_;
   bool damped_;
