@@ -8,13 +8,15 @@ constexpr double kLowestLocalTolerance = 1e-14;
 constexpr double kHighestLocalTolerance = 1e-4;
 constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 
-// Of a whole piece, by a splitting.
-constexpr double kLowestSplittingTolerance = 1e-15;
+// Of a whole piece or period, by fixed steps.
+constexpr double kLowestPlannedTolerance = 1e-15;
 constexpr double kSplittingShare = 0.2;
+constexpr double kTaylorShare = 0.04;  // less, for the bounds of the steps add up
 
 }  // namespace
 
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order) {
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance,
+                                     int highest_order) {
   return {.local_tolerance = local_tolerance,
           .highest_frequency = static_cast<double>(highest_order),
           .estimate_error = options.estimate_error,
@@ -22,10 +24,17 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
           .cancel = options.cancel};
 }
 
-ToleranceLadder tolerance_ladder(Method method, double tolerance) {
-  if (method == Method::propagator) return {kSplittingShare * tolerance, kLowestSplittingTolerance};
+ToleranceLadder sundials_ladder(double tolerance) {
   return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
           kLowestLocalTolerance};
+}
+
+ToleranceLadder splitting_ladder(double tolerance) {
+  return {kSplittingShare * tolerance, kLowestPlannedTolerance};
+}
+
+ToleranceLadder taylor_ladder(double tolerance) {
+  return {kTaylorShare * tolerance, kLowestPlannedTolerance};
 }
 
 }  // namespace strutt

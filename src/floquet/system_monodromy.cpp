@@ -11,6 +11,7 @@ namespace {
 
 using std::numbers::pi;
 
+constexpr double kUnit = 0x1p-53;
 constexpr double kRadians = 16.0;  // that a solution turns by at most in one part of the period
 constexpr double kMostParts = 10'000.0;
 
@@ -43,16 +44,18 @@ Monodromy integrated(PropagatorPool& pool, const UndampedSystem& y, Method metho
   const double needed = std::max(std::ceil(2.0 * pi * y.rate / kRadians), 1.0);
   if (!(needed <= kMostParts)) return without_result<Eigen::MatrixXd>(method, Outcome::step_limit);
   const auto parts = static_cast<int>(needed);
+  const double coefficient_error =
+      y.coefficient_error + 2.0 * pi * y.highest_order * kUnit;  // of cos(k theta)
   const RightHandSide f = [right_hand_side = RightHandSideOf(y)](double theta, StateView state,
                                                                  StateOut dydt) mutable {
     right_hand_side(theta, state, dydt);
   };
-  return tighten(method, options.tolerance, [&](double local_tolerance) {
+  return tighten(sundials_ladder(options.tolerance), options.tolerance, [&](double local_tolerance) {
     Propagators<Eigen::MatrixXd> propagators;
     auto& integrator = pool.integrator(n, method);
     for (int j = 0; j < parts; ++j) {
       const double from = 2.0 * pi * j / parts, to = 2.0 * pi * (j + 1) / parts;
-      propagators.append(integrator.propagate(f, from, to, y.rate * (to - from), y.coefficient_error,
+      propagators.append(integrator.propagate(f, from, to, y.rate * (to - from), coefficient_error,
                                               propagator_options(options, local_tolerance, y.highest_order)));
     }
     return y.assembled(propagators, false);

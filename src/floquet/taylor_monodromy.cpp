@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numbers>
 
 #include "floquet/assembly.hpp"
 #include "floquet/undamped_system.hpp"
@@ -11,11 +10,10 @@ namespace {
 constexpr int kStepsTogether = 64;  // multiplied at once, so that long phases do not need much memory
 
 /// The propagators of groups of steps.
-Propagators<Eigen::MatrixXd> propagated(const UndampedSystem& y, const TaylorStepPlan& plan, int half_periods,
-                                        const MonodromyOptions& options) {
+Propagators<Eigen::MatrixXd> propagated(const TaylorEquation& equation, const TaylorStepPlan& plan,
+                                        int half_periods, const MonodromyOptions& options) {
   Propagators<Eigen::MatrixXd> result;
-  TaylorPropagator propagator({y.damping, y.stiffness}, plan, half_periods);
-  const double radians = y.rate * half_periods * std::numbers::pi / plan.steps;  // in one step
+  TaylorPropagator propagator(equation, plan, half_periods);
   for (int first = 0; first < plan.steps; first += kStepsTogether) {
     if (options.cancel != nullptr && options.cancel->load()) {
       result.outcome = Outcome::cancelled;
@@ -23,9 +21,6 @@ Propagators<Eigen::MatrixXd> propagated(const UndampedSystem& y, const TaylorSte
     }
     const int last = std::min(first + kStepsTogether, plan.steps);
     result.factors.push_back(propagator.propagate(first, last, options.estimate_error));
-    auto& part = result.factors.back();
-    const double size = part.value.mantissa.cwiseAbs().maxCoeff();
-    part.error.array() += size * y.coefficient_error * radians * (last - first);
   }
   result.cost.steps = plan.steps;
   result.cost.right_hand_sides = plan.steps * propagator.products_per_step();
@@ -36,10 +31,11 @@ Propagators<Eigen::MatrixXd> propagated(const UndampedSystem& y, const TaylorSte
 
 Monodromy taylor_monodromy(const UndampedSystem& y, const MonodromyOptions& options) {
   const int half_periods = y.even_symmetric ? 1 : 2;
-  return tighten(Method::propagator, options.tolerance, [&](double local_tolerance) {
-    const auto plan = plan_taylor_steps({y.damping, y.stiffness}, half_periods, local_tolerance);
+  const TaylorEquation equation{y.damping, y.stiffness, y.coefficient_error * y.rate};
+  return tighten(taylor_ladder(options.tolerance), options.tolerance, [&](double local_tolerance) {
+    const auto plan = plan_taylor_steps(equation, half_periods, local_tolerance);
     if (plan.steps == 0) return without_result<Eigen::MatrixXd>(Method::propagator, Outcome::step_limit);
-    const auto found = propagated(y, plan, half_periods, options);
+    const auto found = propagated(equation, plan, half_periods, options);
     if (found.outcome != Outcome::converged)
       return without_result<Eigen::MatrixXd>(Method::propagator, found.outcome);
     return y.assembled(found, y.even_symmetric);

@@ -96,6 +96,7 @@ class TaylorSteps : public TaylorPropagator::Steps {
         decay_(plan.decay),
         tau_(half_periods * std::numbers::pi / (2.0 * plan.steps)),
         exponent_(std::ilogb(tau_)),
+        relative_error_(kSeriesRounding * kUnit + equation.error_rate * tau_),
         stiffness_(equation.stiffness, tau_ * scale(), tau_, plan.order),
         damped_(equation.damping.mean.size() > 0),
         damping_(damped_ ? equation.damping : PeriodicMatrix{0.0 * equation.stiffness.mean, {}}, tau_, tau_,
@@ -162,7 +163,7 @@ class TaylorSteps : public TaylorPropagator::Steps {
     }
     const Full forward = even + odd, inverse = Full(even - odd).partialPivLu().inverse();
     const Full step = forward * inverse;
-    Full error = kSeriesRounding * kUnit * ((step.cwiseAbs() * size + size) * inverse.cwiseAbs());
+    Full error = relative_error_ * ((step.cwiseAbs() * size + size) * inverse.cwiseAbs());
     if (with_truncation) error.array() += truncation(step, inverse);
     BoundedMatrix result;
     result.value.mantissa = unscaled(step);
@@ -197,6 +198,7 @@ class TaylorSteps : public TaylorPropagator::Steps {
   int order_, steps_, half_periods_;
   double decay_, tau_;
   int exponent_;
+  double relative_error_;  // of the terms of the series
   TaylorCoefficients<D> stiffness_;
   bool damped_;
   TaylorCoefficients<D> damping_;

@@ -20,6 +20,9 @@ inline constexpr int kMostTaylorSteps = 100'000;
 struct TaylorEquation {
   const PeriodicMatrix& damping;
   const PeriodicMatrix& stiffness;
+  /// Bound of what wrong coefficients change in a solution, relative, per unit of theta: their relative error
+  /// times the rate of the solution.
+  double error_rate = 0.0;
 };
 
 /// The cheapest plan whose truncation estimate over [0, half_periods pi] is expected to be at most
@@ -52,9 +55,9 @@ class TaylorPropagator {
   TaylorPropagator(TaylorPropagator&&) noexcept;
   TaylorPropagator& operator=(TaylorPropagator&&) noexcept;
 
-  /// Over the steps first, ..., last - 1, first < last; state (Q, Q'). The error bounds the rounding, and
-  /// `with_truncation` the truncation: both step by step, so that errors of steps which happen to cancel do
-  /// not hide each other.
+  /// Over the steps first, ..., last - 1, first < last; state (Q, Q'). The error bounds the rounding and
+  /// what error_rate says, and `with_truncation` the truncation: both step by step, so that errors of steps
+  /// which happen to cancel do not hide each other.
   BoundedMatrix propagate(int first, int last, bool with_truncation = true);
 
   /// Products K_j Q_{k-j} in a step, of which a right-hand side has one. (Those with C_j, if any, are as
