@@ -11,7 +11,7 @@ constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 // Of a whole piece or period, by fixed steps.
 constexpr double kLowestPlannedTolerance = 1e-15;
 constexpr double kSplittingShare = 0.2;
-constexpr double kTaylorShare = 0.04;  // less, for the bounds of the steps add up
+constexpr double kTaylorShare = 0.01;  // less, for the bounds of the steps add up
 
 }  // namespace
 

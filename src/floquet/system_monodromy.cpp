@@ -45,7 +45,7 @@ Monodromy integrated(PropagatorPool& pool, const UndampedSystem& y, Method metho
   if (!(needed <= kMostParts)) return without_result<Eigen::MatrixXd>(method, Outcome::step_limit);
   const auto parts = static_cast<int>(needed);
   const double coefficient_error =
-      y.coefficient_error + 2.0 * pi * y.highest_order * kUnit;  // of cos(k theta)
+      y.coefficient_error + (8.0 + 2.0 * pi * y.highest_order) * kUnit;  // of cos(k theta)
   const RightHandSide f = [right_hand_side = RightHandSideOf(y)](double theta, StateView state,
                                                                  StateOut dydt) mutable {
     right_hand_side(theta, state, dydt);

@@ -50,7 +50,7 @@ UndampedSystem::UndampedSystem(const LinearPeriodicSystem& system)
   }
   // Solving with the mass matrix is exact up to a change of it by some roundings.
   const double condition = (inverse_mass.cwiseAbs() * mass.cwiseAbs()).rowwise().sum().maxCoeff();
-  coefficient_error = 16.0 * kUnit * std::max(1.0, condition);
+  coefficient_error = 8.0 * kUnit * std::max(1.0, condition);
   even_symmetric =
       !general && is_even(system.stiffness) && system.stiffness.is_symmetric() && mass == mass.transpose();
 }

@@ -125,7 +125,7 @@ class TaylorSteps : public TaylorPropagator::Steps {
  private:
   // Roundings in units of 2^-53, as seen in random systems, times 4; the worst case would be several times
   // more.
-  static constexpr double kSeriesRounding = 2.0;
+  static constexpr double kSeriesRounding = 1.0;
   static constexpr double kUnit = 0x1p-53;
 
   /// The state is (Q, scale Q'), a power of two near tau: what is said of one holds for the other exactly.

@@ -71,6 +71,7 @@ TEST_CASE("The error bound is above the true error and sharp on the reference ta
       {"linear4", Method::propagator, 1e-7}, {"linear4", Method::propagator, 1e-12},
   }));
   const auto tally = check(c);
+  INFO(c.table << ' ' << to_string(c.method) << ", tolerance " << c.tolerance);
   CHECK(tally.rows >= 16);
   CHECK(2 * tally.sharp >= tally.rows);
   // what is expected to reach the tolerance: everything but long phases at the finest tolerances

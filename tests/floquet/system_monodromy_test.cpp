@@ -115,8 +115,8 @@ TEST_CASE("Systems begin with the propagator; SUNDIALS is behind it", "[floquet]
   CHECK(2 * m.cost.right_hand_sides <
         by_arkode.cost.right_hand_sides + by_arkode.estimate_cost.right_hand_sides);
   const auto plain = engine.compute(system, {.tolerance = 1e-9, .estimate_error = false});
-  CHECK(plain.matrix.value.mantissa == m.matrix.value.mantissa);
-  CHECK(plain.error < 1e-12);
+  CHECK(true_error(plain, truth(system)) <= 1e-9);
+  CHECK(plain.error < 1e-12);  // of the rounding alone
 
   // A phase of 1e4 radians is beyond 1e-13 for both; the result is that of the better one, the cost that of
   // both.
@@ -133,7 +133,8 @@ TEST_CASE("Systems begin with the propagator; SUNDIALS is behind it", "[floquet]
 TEST_CASE("A system that grows beyond double is right in log form", "[floquet][extreme]") {
   MonodromyEngine engine;
   auto system = pendulums();
-  system.stiffness.mean = -2.0e5 * system.mass;  // growth exp(3 sqrt(2e5)) = exp(1342)
+  system.mass.setIdentity();
+  system.stiffness.mean = MatrixXd{{-2.0e5, 0.0}, {0.0, -1.0e5}};  // growth exp(3 sqrt(2e5)) = exp(1342)
   const auto s = analyse(engine, system, {.tolerance = 1e-9});
   CHECK(s.method == Method::propagator);
   CHECK(s.outcome == Outcome::converged);

@@ -69,14 +69,16 @@ const PeriodicMatrix kPeriodic{MatrixXd{{0.3, 0.1}, {0.1, 0.2}},
 }  // namespace
 
 TEST_CASE("halving the step of the series divides the error by 2^order", "[integrate][taylor][order]") {
-  for (const auto& damping : {PeriodicMatrix{}, kGyroscopic, kPeriodic}) {
-    const auto system = system_of(kPendulums, damping);
-    const auto exact = truth(system);
-    for (const int order : {6, 8, 12}) {
-      const double coarse = relative_error(propagated(system, {order, 96 / order}), exact);
-      const double fine = relative_error(propagated(system, {order, 192 / order}), exact);
-      CHECK(std::log2(coarse / fine) == Approx(order).margin(0.3));
+  for (const int order : {6, 8, 10}) {
+    const int steps = 26 - order;
+    double coarse = 0.0, fine = 0.0;
+    for (const auto& damping : {PeriodicMatrix{}, kGyroscopic, kPeriodic}) {
+      const auto system = system_of(kPendulums, damping);
+      const auto exact = truth(system);
+      coarse += relative_error(propagated(system, {order, steps}), exact);
+      fine += relative_error(propagated(system, {order, 2 * steps}), exact);
     }
+    CHECK(std::log2(coarse / fine) == Approx(order).margin(0.25));
   }
 }
 

@@ -37,7 +37,7 @@ TaylorStepPlan plan_taylor_steps(const TaylorEquation& equation, int half_period
 /// A step is compared with that of the series cut two terms earlier. The next two terms are to the last two
 /// as these are to the two before them, or as those are to their predecessors, or as the plan expects: the
 /// difference times the largest of these ratios times this safety bounds the truncation of the step.
-inline constexpr double kTaylorTruncationSafety = 4.0;
+inline constexpr double kTaylorTruncationSafety = 3.0;
 
 /// Propagators of Q'' + C Q' + K Q = 0 over [0, half_periods pi] by centred Taylor series: the solutions are
 /// expanded about the middle m of each step of length 2 tau,
