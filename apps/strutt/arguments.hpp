@@ -67,12 +67,17 @@ struct PortraitArguments : CommonArguments {  // the scene may be missing
   std::optional<std::string> figure;
 };
 
+struct TradeoffArguments : CommonArguments {
+  std::optional<std::string> samples;
+  std::optional<std::string> figure;
+};
+
 /// --help or --version: text for standard output, nothing else to do.
 struct Information {
   std::string text;
 };
 
 using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
-                               PortraitArguments, NormalFormArguments>;
+                               PortraitArguments, NormalFormArguments, TradeoffArguments>;
 
 }  // namespace strutt::app

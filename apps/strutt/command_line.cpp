@@ -5,54 +5,13 @@
 #include <functional>
 
 #include "exit_code.hpp"
+#include "help_texts.hpp"
 #include "recorded_command.hpp"
 #include "strutt/io/provenance.hpp"
 #include "unknown_words.hpp"
 
 namespace strutt::app {
 namespace {
-
-constexpr const char* kExitCodes = R"(
-Exit codes: 0 done; 1 done, but something asked for is unresolved or not converged; 2 wrong flag; 3 wrong scene or
-  CSV file; 4 over the memory budget; 5 input/output; 6 numerical failure; 7 internal; 128+n signal n.)";
-
-constexpr const char* kChartExample = R"(
-Example:
-  printf '[mathieu]\nepsilon = 0.5\n' > scene.toml
-  strutt chart scene.toml --x mathieu.delta=-1:5:60 --y mathieu.epsilon=0:6:40 -o chart.csv
-)";
-
-constexpr const char* kStabilityExample = R"(
-Example:
-  printf '[mathieu]\ndelta = 1\nepsilon = 0.5\n' > scene.toml
-  printf 'mathieu.delta\n0.2\n0.3\n' > points.csv
-  strutt stability scene.toml --points points.csv
-)";
-
-constexpr const char* kMotionExample = R"(
-Example:
-  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n' > scene.toml
-  strutt motion scene.toml --angle "30 deg" --velocity 0 --duration 2 --samples 21
-)";
-
-constexpr const char* kNormalFormExample = R"(
-Example (the pendulum: delta = 0, beta = -1/16):
-  printf 'alpha,f2_30\n1,0.16666666666666667\n' > coefficients.csv
-  strutt normal-form --points coefficients.csv
-)";
-
-constexpr const char* kPeriodExample = R"(
-Example:
-  strutt period --amplitude "90 deg" --compare
-  printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
-)";
-
-constexpr const char* kPortraitExample = R"(
-Examples:
-  strutt portrait --cells 2 -o portrait.csv
-  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.02\n' > scene.toml
-  strutt portrait scene.toml --curves 10 --sections 20 -o sections.npz || test $? -eq 1
-)";
 
 /// The flags of every command, with or without a scene.
 void add_output(CLI::App& command, CommonArguments& arguments) {
@@ -217,6 +176,22 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   return command;
 }
 
+CLI::App* add_tradeoff(CLI::App& app, TradeoffArguments& arguments) {
+  auto* command = app.add_subcommand("tradeoff", "speed and accuracy of every method that fits a scene, measured");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "measure at this one only", "propagator, cvode, arkode, exact: this one only",
+             "1e-13 to 1e-2 (default: every decade)");
+  command
+      ->add_option("--samples", arguments.samples,
+                   "points scattered over the box of [chart] (default 64); 0, or no box: the scene as it stands")
+      ->type_name("N");
+  command->add_option("--figure", arguments.figure, "draw speed over accuracy as .png, .svg or .pdf")
+      ->type_name("FILE");
+  command->footer(std::string("Exit code 1: a result is further from the truth than its error bound.\n") +
+                  kTradeoffExample + kExitCodes);
+  return command;
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -262,10 +237,12 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   PeriodArguments period;
   PortraitArguments portrait;
   NormalFormArguments normal_form;
+  TradeoffArguments tradeoff;
   const std::vector<Command> commands{
       command(add_chart, app, chart),       command(add_stability, app, stability),
       command(add_motion, app, motion),     command(add_period, app, period),
-      command(add_portrait, app, portrait), command(add_normal_form, app, normal_form)};
+      command(add_portrait, app, portrait), command(add_normal_form, app, normal_form),
+      command(add_tradeoff, app, tradeoff)};
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto parsed = app.get_subcommands();
