@@ -134,16 +134,14 @@ std::string plot_of(const std::vector<Method>& methods, std::vector<std::string>
   return fmt::format("plot {}\n", fmt::join(curves, ", "));
 }
 
-/// The rings of `automatic`, with their labels to the left; near the left edge of the panel, to the right.
+/// The rings of `automatic`, with their labels above; next to the left edge of the panel, to the right.
 std::string rings(std::size_t index, const Decades& across) {
-  const double edge = std::pow(10.0, across.from + 0.3 * (across.to - across.from));
+  const double edge = std::pow(10.0, across.from + 0.06 * (across.to - across.from));
   return fmt::format(
       "'{0}' index {1} using 1:2 with points pointtype 6 pointsize 2.4 linewidth 1.2 linecolor rgb '{2}' "
-      "title "
-      "'auto, at its tolerance', '{0}' index {1} using ($1 < {3:.3g} ? NaN : $1):2:5 with labels right "
-      "offset "
-      "-0.7,0.9 notitle, '{0}' index {1} using ($1 < {3:.3g} ? $1 : NaN):2:5 with labels left offset 0.7,1.2 "
-      "notitle",
+      "title 'auto, at its tolerance', "
+      "'{0}' index {1} using ($1 < {3:.3g} ? NaN : $1):2:5 with labels center offset 0,1 notitle, "
+      "'{0}' index {1} using ($1 < {3:.3g} ? $1 : NaN):2:5 with labels left offset -0.3,1.2 notitle",
       kTradeoffFile, index, colour_of(Method::automatic), edge);
 }
 
