@@ -47,6 +47,11 @@ struct NormalFormArguments : CommonArguments {
   std::string points;
 };
 
+struct CharacteristicArguments : CommonArguments {
+  std::string order;
+  std::string q;
+};
+
 struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not given
   std::optional<std::string> amplitude;
   std::optional<std::string> from_top;
@@ -77,7 +82,9 @@ struct Information {
   std::string text;
 };
 
-using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
-                               PortraitArguments, NormalFormArguments, TradeoffArguments>;
+using Arguments =
+    std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
+                 PortraitArguments, NormalFormArguments, CharacteristicArguments,
+                 TradeoffArguments>;
 
 }  // namespace strutt::app

@@ -38,7 +38,7 @@ Axis chosen_axis(const std::string& name, const std::optional<std::string>& flag
 ChartRequest request_of(const ChartArguments& arguments, const SceneFile& scene) {
   ChartRequest request;
   request.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(request.tolerance));
-  request.method = method_of(arguments, "chart", {Method::propagator, Method::cvode, Method::arkode, Method::exact});
+  request.method = method_of(arguments, "chart", {Method::surrogate, Method::propagator, Method::cvode, Method::arkode, Method::exact});
   request.threads = threads_of(arguments);
   request.x = chosen_axis("x", arguments.x, scene.chart.x, scene.scene);
   request.y = chosen_axis("y", arguments.y, scene.chart.y, scene.scene);
@@ -77,6 +77,22 @@ ChartRequest with_figure_layers(ChartRequest request) {
 SceneFile effective(SceneFile scene, const ChartRequest& request) {
   scene.chart = {.x = request.x, .y = request.y, .layers = request.layers, .tolerance = request.tolerance};
   return scene;
+}
+
+/// Boxes of a surrogate and what building them took.
+std::string surrogate_line(const SurrogateReport& report) {
+  return fmt::format("{} boxes, degrees up to {}, {} nodes, checked at {} points, {} boxes left to point by point",
+                     report.boxes, report.highest_degree, report.nodes, report.checks,
+                     report.boxes_left_out + report.failed_checks);
+}
+
+/// What the plan says about the surrogate that was asked for. It is built: that takes little next to a chart.
+std::vector<std::string> surrogate_lines(const Scene& scene, const ChartRequest& request, const ChartPlan& plan) {
+  if (!plan.refusal.empty()) return {"surrogate: not used, " + plan.refusal};
+  if (plan.method != Method::surrogate) return {};
+  const Surrogate surrogate(scene, request.x, request.y,
+                            {.tolerance = request.tolerance, .threads = request.threads});
+  return {"surrogate: " + surrogate_line(surrogate.report())};
 }
 
 std::vector<std::string> plan_lines(const ChartRequest& request, const ChartPlan& plan) {
@@ -151,6 +167,10 @@ void summarise(const ChartArguments& arguments, const ChartSummary& summary, con
   if (arguments.figure) places += " and " + *arguments.figure;
   print_note(fmt::format("wrote {}: {} cells in {:.3g} s, {} unresolved, {} not converged", places,
                          summary.cells, seconds, counts.unresolved, counts.not_converged));
+  if (!summary.surrogate) return;
+  print_note(fmt::format("surrogate: {}; {} cells point by point, largest error bound {:.2g}",
+                         surrogate_line(*summary.surrogate), summary.cells - summary.interpolated,
+                         summary.largest_error));
 }
 
 }  // namespace
@@ -163,10 +183,17 @@ ExitCode run(const ChartArguments& arguments) {
   const ChartRequest computed = arguments.figure ? with_figure_layers(request) : request;
   const ChartPlan plan = plan_of(arguments, scene, computed);
   if (arguments.dry_run) {
-    print_plan(effective(scene, request), plan_lines(request, plan));
+    auto lines = plan_lines(request, plan);
+    const auto more = surrogate_lines(scene.scene, request, plan);
+    lines.insert(lines.end(), more.begin(), more.end());
+    print_plan(effective(scene, request), lines);
     return ExitCode::done;
   }
   warn_about(arguments, scene.scene);
+  if (!plan.refusal.empty() && !arguments.quiet) {
+    print_warning("no surrogate: " + plan.refusal + "; computing point by point (" +
+                  std::string(to_string(plan.method)) + ")");
+  }
 
   install_signal_handlers();
   const ChartDescription description{

@@ -53,7 +53,7 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
   auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
   add_scene(*command, arguments);
-  add_common(*command, arguments, "largest error of trace and M", "propagator, cvode, arkode, exact");
+  add_common(*command, arguments, "largest error of trace and M", "surrogate, propagator, cvode, arkode, exact");
   command
       ->add_option("--x", arguments.x,
                    "horizontal axis: parameter path, ends, number of points, :log for a log axis")
@@ -149,6 +149,21 @@ CLI::App* add_normal_form(CLI::App& app, NormalFormArguments& arguments) {
   return command;
 }
 
+CLI::App* add_characteristic(CLI::App& app, CharacteristicArguments& arguments) {
+  auto* command = app.add_subcommand("characteristic", "characteristic values of Mathieu's equation");
+  command->add_option("--order", arguments.order, "orders n of a_n, b_n, 0 <= A <= B <= 10000")
+      ->required()
+      ->type_name("A:B");
+  command->add_option("--q", arguments.q, "parameters of x'' + (a - 2 q cos 2t) x = 0, -1e8 to 1e8")
+      ->required()
+      ->type_name("Q[,Q...]");
+  command->add_option("--method", arguments.method, "auto (default), fourier")->type_name("M");
+  command->add_option("--tolerance", arguments.tolerance)->group("");  // refused with its reason
+  add_output(*command, arguments);
+  command->footer(std::string(kCharacteristicExample) + kExitCodes);
+  return command;
+}
+
 CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   auto* command = app.add_subcommand("period", "period of the free pendulum at an amplitude");
   command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
@@ -238,11 +253,15 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   PortraitArguments portrait;
   NormalFormArguments normal_form;
   TradeoffArguments tradeoff;
-  const std::vector<Command> commands{
-      command(add_chart, app, chart),       command(add_stability, app, stability),
-      command(add_motion, app, motion),     command(add_period, app, period),
-      command(add_portrait, app, portrait), command(add_normal_form, app, normal_form),
-      command(add_tradeoff, app, tradeoff)};
+  CharacteristicArguments characteristic;
+  const std::vector<Command> commands{command(add_chart, app, chart),
+                                      command(add_stability, app, stability),
+                                      command(add_motion, app, motion),
+                                      command(add_period, app, period),
+                                      command(add_portrait, app, portrait),
+                                      command(add_normal_form, app, normal_form),
+                                      command(add_characteristic, app, characteristic),
+                                      command(add_tradeoff, app, tradeoff)};
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto parsed = app.get_subcommands();
@@ -256,7 +275,8 @@ Arguments parse_command_line(int argc, const char* const* argv) {
     return Information{std::string(version.what()) + "\n"};
   } catch (const CLI::ParseError& error) {
     // A misspelt flag often is why a required one seems to be missing.
-    if (chosen() != nullptr && !chosen()->remaining().empty()) refuse_extras(*chosen(), chosen()->remaining());
+    if (chosen() != nullptr && !chosen()->remaining().empty())
+      refuse_extras(*chosen(), chosen()->remaining());
     throw UsageError(error.what());
   }
   if (chosen() == nullptr) refuse_command(app.remaining(), command_names(app));

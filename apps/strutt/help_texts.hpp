@@ -38,6 +38,11 @@ Example:
   printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
 )";
 
+inline constexpr const char* kCharacteristicExample = R"(
+Example:
+  strutt characteristic --order 0:10 --q 5,-5
+)";
+
 inline constexpr const char* kPortraitExample = R"(
 Examples:
   strutt portrait --cells 2 -o portrait.csv

@@ -41,6 +41,9 @@ Propagators<Eigen::Matrix2d> closed_form_propagators(const HillEquation& equatio
   return result;
 }
 
+/// Relative, of values of W: cos(k theta) takes the rounding of theta k times.
+double evaluation_error(const PeriodicFunction& w) { return (2.0 + 2.0 * pi * w.highest_order()) * kUnit; }
+
 Propagators<Eigen::Matrix2d> integrated_propagators(LinearPropagator& integrator, const PeriodicFunction& w,
                                                     const std::vector<Segment>& segments, double kappa,
                                                     double coefficient_error,
@@ -68,7 +71,8 @@ HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
     const auto found =
         method == Method::exact
             ? closed_form_propagators(equation, y.w, segments, y.kappa)
-            : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa, y.coefficient_error,
+            : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa,
+                                     y.coefficient_error + evaluation_error(y.w),
                                      propagator_options(options, local_tolerance, y.w.highest_order()));
     return y.assembled(found, segments);
   });

@@ -24,4 +24,27 @@ Eigenvalues eigenvalues(Eigen::MatrixXd matrix) {
   return result;
 }
 
+Eigen::VectorXd banded_eigenvalues(Eigen::MatrixXd band) {
+  if (!band.allFinite()) throw NumericalFailure("eigenvalues of a banded matrix that is not finite");
+  const auto n = static_cast<lapack_int>(band.cols()), rows = static_cast<lapack_int>(band.rows());
+  Eigen::VectorXd values(n);
+  double none = 0.0;
+  const auto info =
+      LAPACKE_dsbev(LAPACK_COL_MAJOR, 'N', 'L', n, rows - 1, band.data(), rows, values.data(), &none, 1);
+  if (info != 0) throw NumericalFailure("LAPACKE_dsbev failed, info = " + std::to_string(info));
+  return values;
+}
+
+Eigen::VectorXd banded_eigenvalues(Eigen::MatrixXcd band) {
+  if (!band.allFinite()) throw NumericalFailure("eigenvalues of a banded matrix that is not finite");
+  const auto n = static_cast<lapack_int>(band.cols()), rows = static_cast<lapack_int>(band.rows());
+  Eigen::VectorXd values(n);
+  lapack_complex_double none = 0.0;
+  auto* entries = reinterpret_cast<lapack_complex_double*>(band.data());
+  const auto info =
+      LAPACKE_zhbev(LAPACK_COL_MAJOR, 'N', 'L', n, rows - 1, entries, rows, values.data(), &none, 1);
+  if (info != 0) throw NumericalFailure("LAPACKE_zhbev failed, info = " + std::to_string(info));
+  return values;
+}
+
 }  // namespace strutt::lapack

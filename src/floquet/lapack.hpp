@@ -13,4 +13,9 @@ struct Eigenvalues {
 /// LAPACK dgeevx. The matrix must be finite (checked: throws NumericalFailure, as it does when the QR iteration fails).
 Eigenvalues eigenvalues(Eigen::MatrixXd matrix);
 
+/// Eigenvalues, ascending, of a symmetric or Hermitian banded matrix: `band` (d, j) is the entry (j + d, j), d = 0 ... bandwidth.
+/// LAPACK dsbev, zhbev; backward stable. Throws NumericalFailure as above.
+Eigen::VectorXd banded_eigenvalues(Eigen::MatrixXd band);
+Eigen::VectorXd banded_eigenvalues(Eigen::MatrixXcd band);
+
 }  // namespace strutt::lapack

@@ -12,12 +12,12 @@ namespace {
 constexpr std::array kMethods{Method::automatic, Method::propagator, Method::exact, Method::arkode,
                               Method::cvode};
 
-/// What comes closest: `by_splitting`, which did not reach the tolerance, or SUNDIALS.
-HillMonodromy better_monodromy(PropagatorPool& pool, const HillEquation& equation, HillMonodromy by_splitting,
+/// What comes closest: `by_series`, which did not reach the tolerance, or SUNDIALS.
+HillMonodromy better_monodromy(PropagatorPool& pool, const HillEquation& equation, HillMonodromy by_series,
                                const MonodromyOptions& options) {
   HillMonodromy other = hill_monodromy(pool, equation, Method::arkode, options);
-  HillMonodromy& better = other.error < by_splitting.error ? other : by_splitting;
-  HillMonodromy& worse = &better == &other ? by_splitting : other;
+  HillMonodromy& better = other.error < by_series.error ? other : by_series;
+  HillMonodromy& worse = &better == &other ? by_series : other;
   better.cost += worse.cost;
   better.estimate_cost += worse.estimate_cost;
   return better;
@@ -88,7 +88,7 @@ std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation
       results[i] = hill_monodromy(*workspace_, equations[i], method, options);
     }
   }
-  auto found = splitting_monodromies(workspace_->splittings, smooth, options);
+  auto found = series_monodromies(workspace_->series, smooth, options);
   for (std::size_t j = 0; j < found.size(); ++j) {
     const bool done = options.method == Method::propagator || ends_the_search(found[j].outcome);
     results[places[j]] =

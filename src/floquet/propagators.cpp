@@ -8,13 +8,14 @@ constexpr double kLowestLocalTolerance = 1e-14;
 constexpr double kHighestLocalTolerance = 1e-4;
 constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 
-// Of a whole piece, by a splitting.
-constexpr double kLowestSplittingTolerance = 1e-15;
-constexpr double kSplittingShare = 0.2;
+// Of a whole piece, by power series.
+constexpr double kLowestSeriesTolerance = 1e-16;
+constexpr double kSeriesShare = 0.5;
 
 }  // namespace
 
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order) {
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance,
+                                     int highest_order) {
   return {.local_tolerance = local_tolerance,
           .highest_frequency = static_cast<double>(highest_order),
           .estimate_error = options.estimate_error,
@@ -23,7 +24,7 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
 }
 
 ToleranceLadder tolerance_ladder(Method method, double tolerance) {
-  if (method == Method::propagator) return {kSplittingShare * tolerance, kLowestSplittingTolerance};
+  if (method == Method::propagator) return {kSeriesShare * tolerance, kLowestSeriesTolerance};
   return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
           kLowestLocalTolerance};
 }

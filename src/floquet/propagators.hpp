@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "floquet/splitting_propagators.hpp"
+#include "floquet/series_propagators.hpp"
 #include "strutt/floquet/monodromy.hpp"
 #include "strutt/integrate/linear_propagator.hpp"
 
@@ -15,7 +15,7 @@ namespace strutt {
 
 /// What computes propagators, kept from one equation to the next.
 struct PropagatorPool {
-  SplittingPropagators splittings;
+  SeriesPropagators series;
   std::map<std::pair<int, Backend>, LinearPropagator> integrators;
 
   LinearPropagator& integrator(int states, Method method) {
@@ -28,7 +28,7 @@ struct PropagatorPool {
 HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
                          const MonodromyOptions& options);
 /// By Method::propagator, all at once.
-std::vector<HillMonodromy> splitting_monodromies(SplittingPropagators& tables,
+std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
                                                  std::span<const HillEquation> equations,
                                                  const MonodromyOptions& options);
 Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
@@ -38,7 +38,7 @@ Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& sys
 template <typename Matrix>
 struct Propagators {
   std::vector<BasicBoundedMatrix<Matrix>> factors;  // with the bounds of their rounding
-  std::vector<BasicBoundedMatrix<Matrix>> checks;  // the same from the second runs, without bounds; empty for closed forms
+  std::vector<BasicBoundedMatrix<Matrix>> checks;  // the same from the second runs, without bounds; empty where no second runs are needed
   double truncation_share = kTruncationSafety;  // see add_truncation
   Outcome outcome = Outcome::converged;
   IntegrationCost cost, estimate_cost;

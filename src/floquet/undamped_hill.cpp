@@ -9,12 +9,6 @@ namespace strutt {
 
 using std::numbers::pi;
 
-namespace {
-
-constexpr double kUnit = 0x1p-53;
-
-}  // namespace
-
 UndampedHill::UndampedHill(const HillEquation& equation)
     : centre(equation.coefficient.even_centre()),
       w(centre ? equation.coefficient.centred(*centre) : equation.coefficient),
@@ -22,7 +16,6 @@ UndampedHill::UndampedHill(const HillEquation& equation)
       angular_frequency(equation.angular_frequency),
       damping(equation.canonical_damping()),
       coefficient_error(equation.coefficient_error +
-                        (2.0 + 2.0 * pi * equation.coefficient.highest_order()) * kUnit +
                         (centre ? equation.coefficient.asymmetry(*centre) : 0.0)) {
   if (damping != 0.0) w = w.plus(-0.25 * damping * damping);
   // The centre is cut out because M is wanted from t = 0.

@@ -23,7 +23,7 @@ struct UndampedHill {
   PeriodicFunction w;
   double kappa;
   double angular_frequency, damping;  ///< Omega, and c in canonical time
-  /// Of evaluating W, relative: of its coefficients, and of cos(k theta) through the rounding of theta.
+  /// Bound of the relative error of the coefficients of W.
   double coefficient_error;
   std::vector<Segment> pieces;  ///< on which W is smooth; 0 and the centre are ends of pieces
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "floquet/half_period_factors.hpp"
+
 namespace strutt {
 namespace {
 
@@ -40,10 +42,10 @@ DiscriminantGap from_trace(Bounded trace, long exponent) {
   return d;
 }
 
-DiscriminantGap from_half_period(const BoundedMatrix2& half) {
-  const Bounded upper = product(entry(half, 1, 0), entry(half, 0, 1));  // u1' u2 = (D - 2)/4
-  const Bounded lower = product(entry(half, 0, 0), entry(half, 1, 1));  // u1 u2' = (D + 2)/4
-  const long exponent = 2 * half.value.exponent;
+DiscriminantGap from_factors(Bounded u1, Bounded u2, Bounded du1, Bounded du2, long exponent) {
+  const Bounded upper = product(du1, u2);  // u1' u2 = (D - 2)/4
+  const Bounded lower = product(u1, du2);  // u1 u2' = (D + 2)/4
+  exponent *= 2;
   auto d = from_trace({2.0 * (upper.value + lower.value), 2.0 * (upper.error + lower.error)}, exponent);
   const int shift = static_cast<int>(std::clamp(exponent, -5000L, 5000L));
   const Bounded& near = d.sign > 0 ? upper : lower;
@@ -88,7 +90,15 @@ Verdict verdict_of(const Margin& margin) {
 }
 
 DiscriminantGap discriminant_gap(const HillMonodromy& monodromy) {
-  return monodromy.half ? from_half_period(*monodromy.half) : from_period(monodromy.undamped);
+  if (!monodromy.half) return from_period(monodromy.undamped);
+  const auto& half = *monodromy.half;
+  return from_factors(entry(half, 0, 0), entry(half, 0, 1), entry(half, 1, 0), entry(half, 1, 1),
+                      half.value.exponent);
+}
+
+DiscriminantGap discriminant_gap(const HalfPeriodFactors& f) {
+  const auto factor = [&](std::size_t i) { return Bounded{f.value[i], f.error[i]}; };
+  return from_factors(factor(0), factor(1), factor(2), factor(3), f.exponent);
 }
 
 Margin hill_margin(const DiscriminantGap& d, double half_damping) {

@@ -218,4 +218,30 @@ TEST_CASE("a figure comes as PNG, SVG and PDF", "[apps][chart][figure]") {
   CHECK(pdf.starts_with("%PDF-"));
 }
 
+TEST_CASE("a chart by surrogate is the one point by point, and what cannot have one says why",
+          "[apps][chart]") {
+  const ScratchDirectory directory;
+  const Words words = chart("-1:5:60", "0.1:6:50", {"--tolerance", "1e-9", "--layers", "verdict"});
+  const Result points = strutt(words, in(directory));
+  Words interpolated = words;
+  interpolated.insert(interpolated.end(), {"--method", "surrogate"});
+  const Result surrogate = strutt(interpolated, in(directory));
+  CHECK(surrogate.code == 0);
+  CHECK(csv_comment(surrogate.out, "method") == "surrogate");
+  CHECK(csv_rows(surrogate.out) == csv_rows(points.out));
+
+  interpolated.push_back("--dry-run");
+  CHECK_THAT(strutt(interpolated, in(directory)).out,
+             Catch::Matchers::Contains("# method: surrogate") &&
+                 Catch::Matchers::Contains(" boxes, degrees up to "));
+
+  const std::string square = "[hill]\nperiod = 1\nwaveform = \"square\"\namplitude = 0.5\n";
+  const Result refused = strutt({"chart", "-", "--method", "surrogate", "--x", "hill.mean=0:1:3", "--y",
+                                 "hill.period=1:2:3", "--layers", "growth"},
+                                {.input = square});
+  CHECK(refused.code == 0);
+  CHECK_THAT(refused.err, Catch::Matchers::Contains("no surrogate: the coefficient is not smooth"));
+  CHECK(csv_comment(refused.out, "method") == "exact");
+}
+
 }  // namespace strutt::test

@@ -68,9 +68,10 @@ TEST_CASE("More accuracy is more work", "[chart][tradeoff]") {
     const auto& rough = row_of(tradeoff, method, 1e-3);
     const auto& fine = row_of(tradeoff, method, 1e-11);
     CHECK(fine.true_error < 1e-3 * rough.true_error);
-    CHECK(fine.steps > rough.steps);
+    CHECK(rough.steps > 0.0);
+    CHECK(fine.steps >= rough.steps);  // a power series takes more terms first
     CHECK(fine.right_hand_sides > rough.right_hand_sides);
-    CHECK(rough.estimate_right_hand_sides > 0.0);
+    if (method != Method::propagator) CHECK(rough.estimate_right_hand_sides > 0.0);  // whose bound costs none
   }
 }
 

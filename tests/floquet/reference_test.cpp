@@ -68,6 +68,7 @@ TEST_CASE("The error bound is above the true error and sharp on the reference ta
       {"linear4", Method::automatic, 1e-6}, {"linear4", Method::automatic, 1e-9}, {"linear4", Method::cvode, 1e-6},
   }));
   const auto tally = check(c);
+  CAPTURE(c.table, to_string(c.method), c.tolerance);
   CHECK(tally.rows >= 16);
   CHECK(2 * tally.sharp >= tally.rows);
   // what is expected to reach the tolerance: everything but long phases at the finest tolerances

@@ -232,6 +232,23 @@ void motion_cases(std::ostream& out) {
         }
 }
 
+// a_n, b_n for all orders to 100, and what other libraries have wrong: q = 21, 600 ... 1500, 2000 (orders 69, 70),
+// 1e5, 1e6, 1e7, 1e8; then orders up to 10000.
+void characteristic_cases(std::ostream& out) {
+    const auto write = [&](int order, double q) {
+        for (const char* kind : {"a", "b"})
+            if (order > 0 || *kind == 'a') out << kind << ',' << order << ',' << join({q});
+    };
+    const std::vector<double> parameters{
+        1e-9, 1e-6, 1e-3, 1e-2, 0.1, 0.5, 1,    2,    3,    5,    -5,   7,    10,   15,  21,  25,  -25, 40,
+        60,   80,   100,  140,  200, 300, 400,  600,  800,  1024, 1200, 1500, 2000, -2000, 3e3, 4e3, 6e3, 8e3,
+        1e4,  -1e4, 2e4,  3e4,  5e4, 7e4, 1e5,  2e5,  3e5,  5e5,  1e6,  3e6,  1e7,  1e8};
+    for (double q : parameters)
+        for (int order = 0; order <= 100; ++order) write(order, q);
+    for (double q : {1.0, 1e4, 1e8}) write(1000, q);
+    for (double q : {1e4, 1e8}) write(10000, q);
+}
+
 // Fifty periods of the excitation: stable oscillations, the rod held upright, tumbling.
 void long_motion_cases(std::ostream& out) {
     for (const std::vector<double>& start : std::vector<std::vector<double>>{
@@ -260,5 +277,6 @@ int main(int argc, char** argv) {
     write("pendulum", pendulum_cases);
     write("linear4", linear4_cases);
     write("motion", motion_cases);
+    write("characteristic", characteristic_cases);
     write("long_motion", long_motion_cases);
 }

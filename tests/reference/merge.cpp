@@ -11,10 +11,10 @@ struct Kind {
     std::string name, equation, columns;
     size_t entries;  // leading answers that are compared on the scale of the largest of them
     Real tolerance;
+    int written = 40;  // digits
 };
 
-const std::vector<std::string> kMethods{"taylor", "fourier", "collocation"};
-constexpr int kWritten = 40;
+const std::vector<std::string> kMethods{"taylor", "fourier", "collocation", "sturm", "fraction"};
 
 // An exact zero, such as sin(2 pi), comes out as the rounding error of 100 digits. The smallest
 // true entry and margin of these cases is far above this, so less than this is written as 0.
@@ -41,7 +41,8 @@ const std::vector<Kind>& kinds() {
          "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity", 2, nonlinear},
         {"long_motion", "the equation of motion.csv; s is the largest |entry| of "
                         "d(phi, phi'/alpha)/d(phi0, phi0'/alpha), at least 1",
-         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity,s", 3, nonlinear}};
+         "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity,s", 3, nonlinear},
+        {"characteristic", "x'' + (value - 2 q cos 2t) x = 0: a_n(q), b_n(q)", "kind,order,q,value", 1, linear, 25}};
     return list;
 }
 
@@ -102,7 +103,7 @@ Outcome compare(const Kind& kind, const std::string& work) {
             }
         if (found.empty()) throw std::runtime_error(kind.name + ": no answer for " + line);
         compare_row(kind, line, found, out);
-        for (const Real& value : found[0]) line += "," + (abs(value) < kZero ? "0" : digits(value, kWritten));
+        for (const Real& value : found[0]) line += "," + (abs(value) < kZero ? "0" : digits(value, kind.written));
         out.text += line + "\n";
         ++out.rows;
     }
@@ -120,7 +121,7 @@ int main(int argc, char** argv) try {
         agree = agree && out.agree;
         std::ostringstream head;
         head << "# " << kind.equation << '\n'
-             << "# Inputs are exact IEEE doubles (read them with strtod); results have " << kWritten << " digits.\n"
+             << "# Inputs are exact IEEE doubles (read them with strtod); results have " << kind.written << " digits.\n"
              << "# Made by tests/reference/make.sh in 100-digit arithmetic. Rows answered:";
         for (size_t m = 0; m < kMethods.size(); ++m)
             if (out.answers[m]) head << ' ' << kMethods[m] << ' ' << out.answers[m] << ',';

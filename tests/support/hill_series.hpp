@@ -8,12 +8,13 @@
 namespace reference {
 
 /// Fundamental matrix [x1, x2; x1', x2'] of x'' + w(t) x = 0 over [0, 2 pi] to about 1e-17 for a Fourier
-/// series w of moderate size: the power series of x over steps of 2 pi/64, in long double.
-inline std::array<std::array<long double, 2>, 2> hill_matrix(const strutt::PeriodicFunction& w) {
-  constexpr int kTerms = 30, kSteps = 64;
-  const long double h = 2.0L * std::acos(-1.0L) / kSteps;
+/// series w with sqrt|w| up to `steps`/3: the power series of x over equal steps, in long double.
+inline std::array<std::array<long double, 2>, 2> hill_matrix(const strutt::PeriodicFunction& w,
+                                                              int steps = 64) {
+  constexpr int kTerms = 30;
+  const long double h = 2.0L * std::acos(-1.0L) / steps;
   std::array<std::array<long double, 2>, 2> state{{{1.0L, 0.0L}, {0.0L, 1.0L}}};
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < steps; ++step) {
     std::array<long double, kTerms> series{};  // of w(t + h s) in s
     series[0] = w.mean();
     for (const auto& harmonic : w.harmonics()) {

@@ -11,6 +11,7 @@
 #include "strutt/base/method.hpp"
 #include "strutt/base/outcome.hpp"
 #include "strutt/chart/axis.hpp"
+#include "strutt/chart/surrogate.hpp"
 #include "strutt/model/scene.hpp"
 
 namespace strutt {
@@ -29,6 +30,8 @@ struct ChartRequest {
   Axis y;
   std::vector<Layer> layers{Layer::verdict, Layer::growth};
   double tolerance = 1e-9;  ///< 1e-13 <= tolerance <= 1e-2
+  /// surrogate: Chebyshev boxes (chart/surrogate.hpp) for all cells whose error and verdict they can answer for, the
+  /// others and charts without a surrogate point by point as with `automatic`. Every other method: point by point.
   Method method = Method::automatic;
   int threads = 0;             ///< 0: all
   bool force = false;          ///< lifts the memory budget
@@ -44,6 +47,7 @@ struct ChartPlan {
   double budget_bytes = 0.0;   ///< memory_budget()
   double expected_seconds = 0.0;  ///< from a fixed cost per cell, for orientation
   Method method = Method::automatic;  ///< the one that will be used
+  std::string refusal;  ///< why the surrogate that was asked for is not used; empty: it is, or was not asked for
   int threads = 1;
 };
 
@@ -81,6 +85,8 @@ struct ChartSummary {
   std::vector<std::size_t> outcomes;              ///< cells per Outcome
   long right_hand_sides = 0;
   double largest_error = 0.0;                     ///< of all converged cells
+  std::size_t interpolated = 0;                   ///< cells whose values come from the surrogate
+  std::optional<SurrogateReport> surrogate;       ///< how building it went
 };
 
 /// Computes the chart strip by strip. Cells are independent: the same bits for any number of threads.

@@ -76,8 +76,8 @@ class MonodromyEngine {
   MonodromyEngine(MonodromyEngine&&) noexcept;
   MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
 
-  /// Method::automatic: exact for a piecewise-constant coefficient, for other Hill equations the propagator (a splitting
-  /// with fixed steps, checked by a run with half of them) with arkode behind it where the tolerance is not reached; else
+  /// Method::automatic: exact for a piecewise-constant coefficient, for other Hill equations the propagator (power
+  /// series with fixed steps, integrate/hill_series.hpp) with arkode behind it where the tolerance is not reached; else
   /// arkode. The local tolerance of SUNDIALS starts at max(tolerance/100, 1e-14). Both are tightened while the error bound
   /// is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.

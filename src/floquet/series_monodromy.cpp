@@ -8,37 +8,33 @@ namespace strutt {
 namespace {
 
 /// The propagators of the pieces of one equation.
-Propagators<Eigen::Matrix2d> collected(std::span<SplittingPropagation> pieces) {
+Propagators<Eigen::Matrix2d> collected(std::span<SeriesPropagation> pieces) {
   Propagators<Eigen::Matrix2d> result;
-  result.truncation_share = 0.0;
   for (auto& piece : pieces) {
     if (piece.cost.steps == 0) result.outcome = Outcome::step_limit;
     result.cost += piece.cost;
-    result.estimate_cost += piece.check_cost;
-    result.truncation_share = std::max(result.truncation_share, piece.truncation_share);
-    result.append(std::move(piece.matrix), std::move(piece.check));
+    result.factors.push_back(std::move(piece.matrix));
   }
   return result;
 }
 
 /// One attempt at the equations that `wanted` names.
-void attempt(SplittingPropagators& tables, const std::vector<UndampedHill>& equations,
-             const std::vector<std::size_t>& wanted, double local_tolerance, bool with_check,
+void attempt(SeriesPropagators& tables, const std::vector<UndampedHill>& equations,
+             const std::vector<std::size_t>& wanted, double local_tolerance,
              std::vector<HillMonodromy>& results) {
-  std::vector<SplittingJob> jobs;
+  std::vector<SeriesJob> jobs;
   for (const std::size_t i : wanted) {
     const auto& y = equations[i];
     for (const auto& piece : y.pieces) {
       jobs.push_back({y.w.piece(0.5 * (piece.from + piece.to)), piece, y.kappa, y.coefficient_error});
     }
   }
-  auto found = tables.propagate(jobs, local_tolerance, with_check);
+  auto found = tables.propagate(jobs, local_tolerance);
   std::size_t begin = 0;
   for (const std::size_t i : wanted) {
     const auto& pieces = equations[i].pieces;
     auto made = equations[i].assembled(collected({found.data() + begin, pieces.size()}), pieces);
     made.cost += results[i].cost;
-    made.estimate_cost += results[i].estimate_cost;
     results[i] = std::move(made);
     begin += pieces.size();
   }
@@ -46,9 +42,9 @@ void attempt(SplittingPropagators& tables, const std::vector<UndampedHill>& equa
 
 }  // namespace
 
-std::vector<HillMonodromy> splitting_monodromies(SplittingPropagators& tables,
-                                                 std::span<const HillEquation> equations,
-                                                 const MonodromyOptions& options) {
+std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
+                                              std::span<const HillEquation> equations,
+                                              const MonodromyOptions& options) {
   const std::vector<UndampedHill> undamped(equations.begin(), equations.end());
   std::vector<HillMonodromy> results(equations.size());
   std::vector<std::size_t> wanted(equations.size());
@@ -57,7 +53,7 @@ std::vector<HillMonodromy> splitting_monodromies(SplittingPropagators& tables,
   double local = ladder.first;
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   while (!wanted.empty() && !cancelled()) {
-    attempt(tables, undamped, wanted, local, options.estimate_error, results);
+    attempt(tables, undamped, wanted, local, results);
     const bool last = local <= ladder.lowest;
     std::erase_if(wanted, [&](std::size_t i) {
       return last || results[i].outcome != Outcome::converged || results[i].error <= options.tolerance;

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+/// Chebyshev interpolation on [-1, 1] in the extreme points t_j = cos(pi j/n), j = 0 ... n.
+namespace strutt::chebyshev {
+
+double point(int j, int n);
+
+/// (n + 1) x (n + 1): from values at the points to the coefficients of T_0 ... T_n (a discrete cosine
+/// transform).
+Eigen::MatrixXd transform(int n);
+
+/// points x (degree + 1): T_k(t_i), by the three-term recurrence, whose error is at most about k^2 units in
+/// the last place.
+void polynomials(std::span<const double> t, int degree, Eigen::MatrixXd& result);
+
+}  // namespace strutt::chebyshev

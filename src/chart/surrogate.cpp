@@ -1,0 +1,164 @@
+#include "strutt/chart/surrogate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "chart/chebyshev.hpp"
+#include "chart/hill_model.hpp"
+#include "chart/point_equation.hpp"
+#include "chart/product_table.hpp"
+#include "chart/surrogate_box.hpp"
+#include "chart/surrogate_build.hpp"
+#include "chart/surrogate_scope.hpp"
+#include "strutt/base/error.hpp"
+
+namespace strutt {
+namespace {
+
+/// T_k(t) and T_k'(t), k = 0 ... degree.
+struct Basis {
+  Eigen::VectorXd value, slope;
+
+  Basis(double t, Eigen::Index terms) : value(terms), slope(terms) {
+    value[0] = 1.0;
+    slope[0] = 0.0;
+    if (terms > 1) {
+      value[1] = t;
+      slope[1] = 1.0;
+    }
+    for (Eigen::Index k = 2; k < terms; ++k) {
+      value[k] = 2.0 * t * value[k - 1] - value[k - 2];
+      slope[k] = 2.0 * value[k - 1] + 2.0 * t * slope[k - 1] - slope[k - 2];
+    }
+  }
+};
+
+double half_width(const SurrogateBox& box, std::size_t axis) {
+  return 0.5 * (box.high[axis] - box.low[axis]);
+}
+
+/// d coordinate / d parameter.
+double stretch(const Axis& axis, double value) { return axis.scale == AxisScale::linear ? 1.0 : 1.0 / value; }
+
+}  // namespace
+
+double Surrogate::coordinate(const Axis& axis, double value) {
+  return axis.scale == AxisScale::linear ? value : std::log(std::abs(value));
+}
+
+std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y) {
+  if (x.points < 2 || y.points < 2) return "an axis has only one point";
+  const auto scope = surrogate_scope(scene, x, y);
+  if (!scope.refusal.empty() || scope.kind != SurrogateKind::half_period) return scope.refusal;
+  HillModel model(scene, x, y, scope.even_phase);
+  const Axis few_x{x.parameter, x.from, x.to, 2, x.scale}, few_y{y.parameter, y.from, y.to, 2, y.scale};
+  for (const auto property : {&PointEquation::half_damping, &PointEquation::kappa_square}) {
+    const auto value = [&](double px, double py) {
+      const auto point = model.at(px, py);
+      return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
+    };
+    if (!ProductTable::of(value, few_x, few_y))
+      return "damping or mean of the coefficient is not a product of functions of the two parameters";
+  }
+  return "";
+}
+
+Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options) {
+  x.validate("x");
+  y.validate("y");
+  MonodromyOptions{.tolerance = options.tolerance}.validate();
+  if (const auto reason = refusal(scene, x, y); !reason.empty())
+    throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
+  auto built = build_surrogate(scene, x, y, options);
+  data_ = std::move(built.data);
+  cancelled_ = built.cancelled;
+}
+
+Surrogate::Surrogate(SurrogateData data) : data_(std::move(data)) {
+  data_.x.validate("x");
+  data_.y.validate("y");
+  parameter(data_.scene, data_.x.parameter);
+  parameter(data_.scene, data_.y.parameter);
+  for (const auto& box : data_.boxes) {
+    if (!box.interpolated) continue;
+    const auto& c = box.coefficients;
+    const auto n = std::lround(std::sqrt(static_cast<double>(c.size())));
+    const bool same_shape = !c.empty() && std::all_of(c.begin(), c.end(), [&](const auto& m) {
+      return m.size() > 0 && m.rows() == c[0].rows() && m.cols() == c[0].cols() && m.allFinite();
+    });
+    if (!same_shape || n % 2 != 0 || static_cast<std::size_t>(n * n) != c.size() ||
+        box.error.size() != c.size())
+      throw InvalidInput("a box of the surrogate has coefficients that do not fit together");
+  }
+}
+
+const SurrogateBox* Surrogate::box_at(double x, double y) const {
+  const double at_x = coordinate(data_.x, x), at_y = coordinate(data_.y, y);
+  const auto found = std::find_if(data_.boxes.begin(), data_.boxes.end(), [&](const SurrogateBox& box) {
+    return at_x >= box.low[0] && at_x <= box.high[0] && at_y >= box.low[1] && at_y <= box.high[1];
+  });
+  return found == data_.boxes.end() || !found->interpolated ? nullptr : &*found;
+}
+
+std::optional<Surrogate::Point> Surrogate::point_at(double x, double y) const {
+  const SurrogateBox* const box = box_at(x, y);
+  if (box == nullptr) return std::nullopt;
+  Scene scene = data_.scene;
+  parameter(scene, data_.x.parameter) = x;
+  parameter(scene, data_.y.parameter) = y;
+  return Point{box, linear_model(scene)};
+}
+
+std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const {
+  const auto point = point_at(x, y);
+  if (!point || !hill_equation_of(point->model)) return std::nullopt;
+  const auto scale = point_equation(point->model, data_.even_phase);
+  if (!scale) return std::nullopt;
+  const SurrogateBox& box = *point->box;
+  const auto value = evaluate(box, coordinate(data_.x, x), coordinate(data_.y, y));
+  return hill_monodromy_of(data_.kind, at_kappa(value, error_matrix(box), scale->sample.kappa / box.kappa),
+                           box.exponent, scale->sample, scale->angular_frequency, data_.tolerance);
+}
+
+std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
+  const auto point = point_at(x, y);
+  if (!point) return std::nullopt;
+  if (hill_equation_of(point->model)) {
+    const auto found = hill_monodromy(x, y);
+    return found ? std::optional(widened(*found)) : std::nullopt;
+  }
+  const auto scale = point_equation(point->model, std::nullopt);
+  const SurrogateBox& box = *point->box;
+  const auto value = evaluate(box, coordinate(data_.x, x), coordinate(data_.y, y));
+  return system_monodromy_of(at_kappa(value, error_matrix(box), scale->sample.kappa / box.kappa),
+                             box.exponent, scale->sample, scale->angular_frequency, data_.tolerance);
+}
+
+std::optional<SurrogateGradient> Surrogate::gradient(double x, double y) const {
+  const SurrogateBox* const box = box_at(x, y);
+  if (box == nullptr) return std::nullopt;
+  const auto place = [&](std::size_t axis, double v) {
+    return (v - 0.5 * (box->low[axis] + box->high[axis])) / half_width(*box, axis);
+  };
+  const Basis s(place(0, coordinate(data_.x, x)), box->coefficients[0].rows());
+  const Basis t(place(1, coordinate(data_.y, y)), box->coefficients[0].cols());
+  const double by_x = stretch(data_.x, x) / half_width(*box, 0),
+               by_y = stretch(data_.y, y) / half_width(*box, 1);
+  SurrogateGradient result;
+  result.exponent = box->exponent;
+  result.kappa = box->kappa;
+  result.value = result.by_x = result.by_y = error_matrix(*box);  // of the same shape
+  const Eigen::Index n = result.value.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto& c = box->coefficients[static_cast<std::size_t>(i * n + j)];
+      result.value(i, j) = s.value.dot(c * t.value);
+      result.by_x(i, j) = by_x * s.slope.dot(c * t.value);
+      result.by_y(i, j) = by_y * s.value.dot(c * t.slope);
+    }
+  }
+  return result;
+}
+
+}  // namespace strutt

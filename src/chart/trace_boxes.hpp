@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "strutt/chart/surrogate.hpp"
+
+namespace strutt {
+
+/// For charts that show nothing but the discriminant: in each box of half-period factors D = 2 (u1 u2' + u1'
+/// u2), with the powers of two in it, becomes one function of its own, where its bound stays below the
+/// tolerance. Such boxes have a single function; the others stay as they are.
+std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, double tolerance);
+
+}  // namespace strutt
