@@ -229,7 +229,7 @@ double expected_seconds(const Scene& scene, const TradeoffRequest& request) {
   double seconds = 0.0;
   const auto points = static_cast<double>(request.points.rows.size());
   for (const Method method : request.methods) {
-    const double once = points * expected_seconds_per_point(method_for(model, method));
+    const double once = points * expected_seconds_per_point(method_for(model, method), model);
     seconds += static_cast<double>(request.tolerances.size()) *
                (2.0 * once + request.repeats * std::max(request.seconds, once));
   }

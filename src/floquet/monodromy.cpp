@@ -22,10 +22,10 @@ BasicMonodromy<Matrix> better_of(BasicMonodromy<Matrix> a, BasicMonodromy<Matrix
   return std::move(better);
 }
 
-/// Is SUNDIALS not to be asked, after the propagator ended like this?
-bool ends_the_search(Outcome outcome, Method asked) {
-  return asked == Method::propagator || outcome == Outcome::converged || outcome == Outcome::non_finite ||
-         outcome == Outcome::cancelled;
+/// Is SUNDIALS to be asked, after the propagator ended like this? Where only rounding keeps the propagator from its
+/// tolerance, an adaptive method does no better at many times the cost.
+bool needs_sundials(Outcome outcome, Method asked) {
+  return asked == Method::automatic && outcome == Outcome::step_limit;
 }
 
 [[noreturn]] void refuse_exact() {
@@ -88,7 +88,7 @@ std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation
   auto found = series_monodromies(workspace_->series, smooth, options);
   for (std::size_t j = 0; j < found.size(); ++j) {
     auto& result = results[places[j]] = std::move(found[j]);
-    if (ends_the_search(result.outcome, options.method)) continue;
+    if (!needs_sundials(result.outcome, options.method)) continue;
     result = better_of(std::move(result), hill_monodromy(*workspace_, smooth[j], Method::arkode, options));
   }
   return results;
@@ -99,7 +99,7 @@ Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const Mon
   options.validate();
   const Method method = method_for(system, options.method);
   auto result = system_monodromy(*workspace_, system, method, options);
-  if (method != Method::propagator || ends_the_search(result.outcome, options.method)) return result;
+  if (method != Method::propagator || !needs_sundials(result.outcome, options.method)) return result;
   return better_of(std::move(result), system_monodromy(*workspace_, system, Method::arkode, options));
 }
 

@@ -76,8 +76,8 @@ class MonodromyEngine {
   MonodromyEngine(MonodromyEngine&&) noexcept;
   MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
 
-  /// Method::automatic: exact for a piecewise-constant coefficient, else the propagator with arkode behind it where the
-  /// tolerance is not reached. The propagator is a power series about the middle of each of a fixed number of steps, of
+  /// Method::automatic: exact for a piecewise-constant coefficient, else the propagator, and arkode where it would
+  /// take too many steps. The propagator is a power series about the middle of each of a fixed number of steps, of
   /// Hill equations by integrate/hill_family.hpp, of systems by integrate/taylor_propagator.hpp. The local tolerance of
   /// SUNDIALS starts at max(tolerance/100, 1e-14). All are tightened while the error bound is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
