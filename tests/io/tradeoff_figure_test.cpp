@@ -67,7 +67,7 @@ TEST_CASE("the data of a figure of speed and accuracy are the rows by method, th
         "1e-10 2000\n2e-08 500000\n0.0002 1e+06\n1 1e+06\n");
 }
 
-TEST_CASE("points that lie on each other share a label; rows without an error are left out",
+TEST_CASE("points that lie on each other share a label, and rows without an error are left out",
           "[io][tradeoff_figure]") {
   constexpr double inf = std::numeric_limits<double>::infinity();
   auto failed = row(Method::cvode, 1e-3, inf, 1e3);
