@@ -72,6 +72,11 @@ struct PortraitArguments : CommonArguments {  // the scene may be missing
   std::optional<std::string> figure;
 };
 
+struct TradeoffArguments : CommonArguments {
+  std::optional<std::string> samples;
+  std::optional<std::string> figure;
+};
+
 /// --help or --version: text for standard output, nothing else to do.
 struct Information {
   std::string text;
@@ -79,6 +84,7 @@ struct Information {
 
 using Arguments =
     std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
-                 PortraitArguments, NormalFormArguments, CharacteristicArguments>;
+                 PortraitArguments, NormalFormArguments, CharacteristicArguments,
+                 TradeoffArguments>;
 
 }  // namespace strutt::app

@@ -191,6 +191,22 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   return command;
 }
 
+CLI::App* add_tradeoff(CLI::App& app, TradeoffArguments& arguments) {
+  auto* command = app.add_subcommand("tradeoff", "speed and accuracy of every method that fits a scene, measured");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "measure at this one only", "propagator, cvode, arkode, exact: this one only",
+             "1e-13 to 1e-2 (default: every decade)");
+  command
+      ->add_option("--samples", arguments.samples,
+                   "points scattered over the box of [chart] (default 64); 0, or no box: the scene as it stands")
+      ->type_name("N");
+  command->add_option("--figure", arguments.figure, "draw speed over accuracy as .png, .svg or .pdf")
+      ->type_name("FILE");
+  command->footer(std::string("Exit code 1: a result is further from the truth than its error bound.\n") +
+                  kTradeoffExample + kExitCodes);
+  return command;
+}
+
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -236,6 +252,7 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   PeriodArguments period;
   PortraitArguments portrait;
   NormalFormArguments normal_form;
+  TradeoffArguments tradeoff;
   CharacteristicArguments characteristic;
   const std::vector<Command> commands{command(add_chart, app, chart),
                                       command(add_stability, app, stability),
@@ -243,7 +260,8 @@ Arguments parse_command_line(int argc, const char* const* argv) {
                                       command(add_period, app, period),
                                       command(add_portrait, app, portrait),
                                       command(add_normal_form, app, normal_form),
-                                      command(add_characteristic, app, characteristic)};
+                                      command(add_characteristic, app, characteristic),
+                                      command(add_tradeoff, app, tradeoff)};
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto parsed = app.get_subcommands();

@@ -13,5 +13,6 @@ ExitCode run(const CharacteristicArguments& arguments);
 ExitCode run(const PeriodArguments& arguments);
 ExitCode run(const NormalFormArguments& arguments);
 ExitCode run(const PortraitArguments& arguments);
+ExitCode run(const TradeoffArguments& arguments);
 
 }  // namespace strutt::app
