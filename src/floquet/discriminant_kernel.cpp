@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "strutt/base/instruction_set.hpp"
+#include "base/dispatch.hpp"
 
 namespace strutt::detail {
 namespace {
@@ -68,14 +68,7 @@ void combine_sse2(const DiscriminantArrays& arrays) { combine_all(arrays); }
 }  // namespace
 
 void combine(const DiscriminantArrays& arrays) {
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return combine_avx512(arrays);
-    case InstructionSet::avx2:
-      return combine_avx2(arrays);
-    case InstructionSet::sse2:
-      return combine_sse2(arrays);
-  }
+  for_this_process(combine_sse2, combine_avx2, combine_avx512)(arrays);
 }
 
 }  // namespace strutt::detail

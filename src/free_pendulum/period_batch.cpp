@@ -2,9 +2,9 @@
 #include <array>
 #include <cstddef>
 
+#include "base/dispatch.hpp"
 #include "free_pendulum/period_table.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/base/instruction_set.hpp"
 #include "strutt/free_pendulum/period.hpp"
 
 namespace strutt {
@@ -48,7 +48,6 @@ template <typename Input>
 #define STRUTT_ARRAYS                                                                         \
   const double* __restrict columns, const double* __restrict input, double* __restrict ratio, \
       std::size_t count
-using Evaluate = bool (*)(STRUTT_ARRAYS);
 
 template <typename Input>
 bool evaluate_sse2(STRUTT_ARRAYS) {
@@ -64,19 +63,6 @@ template <typename Input>
 }
 #undef STRUTT_ARRAYS
 
-template <typename Input>
-Evaluate chosen() {
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return evaluate_avx512<Input>;
-    case InstructionSet::avx2:
-      return evaluate_avx2<Input>;
-    case InstructionSet::sse2:
-      break;
-  }
-  return evaluate_sse2<Input>;
-}
-
 /// The elements that the table is not made for, one by one.
 template <typename Input>
 void repair(const double* input, double* ratio, std::size_t count, double (*one)(double)) {
@@ -88,7 +74,7 @@ template <typename Input>
 void evaluate(std::span<const double> input, std::span<double> ratio, double (*one)(double)) {
   if (input.size() != ratio.size())
     throw InvalidInput("ratio.size()", std::to_string(ratio.size()), "that of the input");
-  const Evaluate block = chosen<Input>();
+  const auto block = for_this_process(evaluate_sse2<Input>, evaluate_avx2<Input>, evaluate_avx512<Input>);
   const double* const columns = PeriodTable::instance().columns();
   std::array<double, kBlock> result;
   for (std::size_t first = 0; first < input.size(); first += kBlock) {

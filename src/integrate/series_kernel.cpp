@@ -2,11 +2,11 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <new>
 
-#include "strutt/base/instruction_set.hpp"
+#include "base/dispatch.hpp"
 
 namespace strutt::detail {
 namespace {
@@ -36,56 +36,17 @@ class Workspace {
   T* data_;
 };
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,avx512cd,fma,prefer-vector-width=512")
-namespace avx512 {
-#define STRUTT_WIDTH 8
-#define STRUTT_REGISTERS 3
-#define STRUTT_FMA(a, b, c) _mm512_fmadd_pd(a, b, c)
-#include "integrate/series_kernel.inc"
-}  // namespace avx512
-#pragma GCC pop_options
-
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-namespace avx2 {
-#define STRUTT_WIDTH 4
-#define STRUTT_REGISTERS 2
-#define STRUTT_FMA(a, b, c) _mm256_fmadd_pd(a, b, c)
-#include "integrate/series_kernel.inc"
-}  // namespace avx2
-#pragma GCC pop_options
-
-// Without hardware for it, a fused multiply-add costs a hundred times more.
-namespace sse2 {
-#define STRUTT_WIDTH 2
-#define STRUTT_REGISTERS 2
-#define STRUTT_FMA(a, b, c) ((a) * (b) + (c))
-#include "integrate/series_kernel.inc"
-}  // namespace sse2
+#define STRUTT_KERNEL "integrate/series_kernel.inc"
+#include "base/every_instruction_set.inc"
 
 }  // namespace
 
 void choose(const SeriesChoice& choice) {
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::choose_all(choice);
-    case InstructionSet::avx2:
-      return avx2::choose_all(choice);
-    case InstructionSet::sse2:
-      return sse2::choose_all(choice);
-  }
+  for_this_process(sse2::choose_all, avx2::choose_all, avx512::choose_all)(choice);
 }
 
 void sweep(const SeriesSweep& batch) {
-  switch (instruction_set()) {
-    case InstructionSet::avx512:
-      return avx512::sweep_all(batch);
-    case InstructionSet::avx2:
-      return avx2::sweep_all(batch);
-    case InstructionSet::sse2:
-      return sse2::sweep_all(batch);
-  }
+  for_this_process(sse2::sweep_all, avx2::sweep_all, avx512::sweep_all)(batch);
 }
 
 }  // namespace strutt::detail

@@ -9,7 +9,7 @@ trap 'rm -f "$edges"' EXIT
 status=0
 
 # shellcheck disable=SC2016  # $0 is the line in awk
-find include src apps -name '*.[ch]pp' | sort | xargs awk -v edges="$edges" '
+find include src apps \( -name '*.[ch]pp' -o -name '*.inc' \) | sort | xargs awk -v edges="$edges" '
 BEGIN {
   # A file includes from its own layer and from layers with a smaller number. Equal numbers do not see each other.
   split("base 1 model 2 integrate 3 floquet 4 free_pendulum 4 chart 5 io 6 apps 7", word, " ")
