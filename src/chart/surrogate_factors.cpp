@@ -134,7 +134,7 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
   char* const done = &done_[offset];
   if (cells.largest_error <= request_.tolerance && (!with_verdict_ || cells.all_resolved)) {
     std::fill_n(done, tile.columns, 1);
-    return {tile.columns, 0, cells.largest_error};
+    return {tile.columns, cells.largest_error};
   }
   worker.error.resize(kTileColumns);
   worker.verdict.resize(kTileColumns);
@@ -146,7 +146,7 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
   for (std::size_t c = 0; c < tile.columns; ++c) {
     const bool open = with_verdict_ && worker.verdict[c] == static_cast<double>(Verdict::unresolved);
     done[c] = worker.error[c] <= request_.tolerance && !open ? 1 : 0;
-    if (done[c] != 0) count += {1, 0, worker.error[c]};
+    if (done[c] != 0) count += {1, worker.error[c]};
   }
   return count;
 }
