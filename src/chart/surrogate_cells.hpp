@@ -54,7 +54,7 @@ class SurrogateCells {
   void damp(const GridPiece& piece, double* values, std::size_t stride, Worker& worker) const;
   Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_factors(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  std::optional<Count> fill_rows(const GridPiece& piece, ChartStrip& strip, Worker& worker, bool every_cell);
+  std::optional<Count> fill_rows(const GridPiece& piece, ChartStrip& strip, Worker& worker, bool along_rows);
   Count fill_cells(const GridPiece& tile, std::size_t r, ChartStrip& strip, Worker& worker, bool is_plain);
   void prepare(const GridPiece& tile, std::size_t r, Worker& worker) const;
   void start_row(const GridPiece& tile, std::size_t r, const GridPiece& piece, Edges& edges,
