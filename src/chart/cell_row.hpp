@@ -20,12 +20,12 @@ struct DampingRow {
 /// The quadrant of the angle of (u2', u2), whole turns counted, followed from cell to cell by the signs.
 struct Turns {
   double quadrant = 0.0;
-  int pattern = 0;      ///< sign_quadrant of the cell
-  bool certain = true;  ///< the signs never left a choice
+  int pattern = 0;  ///< sign_quadrant of the cell
+  int doubts = 0;   ///< how often the signs left a choice: two quadrants forwards, which is taken, or backwards
 
   void follow(double u2, double du2) {
     const int here = sign_quadrant(u2, du2), step = (here - pattern + 5) % 4 - 1;  // -1, 0, 1 or 2
-    certain = certain && step != 2;
+    doubts += step == 2 ? 1 : 0;
     quadrant += step;
     pattern = here;
   }

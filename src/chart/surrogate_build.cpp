@@ -72,13 +72,8 @@ class HillReferee {
   std::vector<std::unique_ptr<HillModel>> models_;
 };
 
-/// Where propagators come from: those of the nodes, and those to check with.
-struct Source {
-  Sampling nodes, referee;
-};
-
-Source source_of(const SurrogateScope& scope, const Scene& scene, const Axis& x, const Axis& y,
-                 const SurrogateOptions& options) {
+SurrogateSource source_of(const SurrogateScope& scope, const Scene& scene, const Axis& x, const Axis& y,
+                          const SurrogateOptions& options) {
   const ParallelOptions parallel{.threads = options.threads, .cancel = options.cancel};
   if (scope.is_system) {
     const auto systems = std::make_shared<SystemNodes>(scene, x, y, scope.splits_damping, parallel);
@@ -165,6 +160,11 @@ struct Pending {
 
 SurrogateBuild build_surrogate(const Scene& scene, const Axis& x, const Axis& y,
                                const SurrogateOptions& options) {
+  return build_surrogate(scene, x, y, options, source_of(surrogate_scope(scene, x, y), scene, x, y, options));
+}
+
+SurrogateBuild build_surrogate(const Scene& scene, const Axis& x, const Axis& y,
+                               const SurrogateOptions& options, const SurrogateSource& source) {
   SurrogateBuild built;
   built.data.scene = scene;
   built.data.x = x;
@@ -175,7 +175,6 @@ SurrogateBuild build_surrogate(const Scene& scene, const Axis& x, const Axis& y,
   const auto scope = surrogate_scope(scene, x, y);
   built.data.kind = scope.kind;
   built.data.even_phase = scope.even_phase;
-  const Source source = source_of(scope, scene, x, y, options);
   const Sampling sampling = [&](const auto& points, auto& result) {
     return source.nodes(parameter_values(x, y, points), result);
   };

@@ -52,6 +52,7 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
   workers_.resize(static_cast<std::size_t>(thread_count(parallel_)));
   if (surrogate_.kind() == SurrogateKind::period) {
     for (auto& worker : workers_) worker.matrix = std::make_unique<MatrixCell>(scene, request);
+    reciprocal_ = ReciprocalCells::of(scene, request);
     return;
   }
   for (auto& worker : workers_) {
@@ -72,7 +73,6 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
   for (const auto& count : counts) all += count;
   summary.cells += all.cells;
   summary.interpolated += all.cells;
-  summary.unresolved += all.unresolved;
   summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += all.cells;
   summary.largest_error = std::max(summary.largest_error, all.largest_error);
   rest.clear();
@@ -85,7 +85,6 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
 
 SurrogateCells::Count& SurrogateCells::Count::operator+=(const Count& other) {
   cells += other.cells;
-  unresolved += other.unresolved;
   largest_error = std::max(largest_error, other.largest_error);
   return *this;
 }
@@ -140,15 +139,16 @@ SurrogateCells::Count SurrogateCells::fill_matrices(const GridPiece& piece, Char
       for (Eigen::Index j = 0; j < value.cols(); ++j, ++f)
         value(i, j) = worker.factors[static_cast<std::size_t>(f) * GridPiece::kMostColumns + c];
     }
-    const auto found = worker.matrix->assess(request_.x.value(piece.first_column + c),
-                                             request_.y.value(piece.first_row + r), box, value, error);
-    // with more than two states the engine, too, leaves open what structure alone keeps at the edge
-    const bool open = with_verdict_ && value.rows() == 2 && found.verdict == Verdict::unresolved;
+    const std::size_t column = piece.first_column + c, row = piece.first_row + r;
+    const auto found = reciprocal_ ? reciprocal_->assess(column, row, box, value)
+                                   : worker.matrix->assess(request_.x.value(column), request_.y.value(row),
+                                                           box, value, error);
+    const bool open = with_verdict_ && found.verdict == Verdict::unresolved;
     if (found.outcome != Outcome::converged || open) continue;
     for (std::size_t l = 0; l < request_.layers.size(); ++l)
       strip.values[l][place] = layer_value(found, request_.layers[l]);
     done_[place] = 1;
-    count += {1, with_verdict_ && found.verdict == Verdict::unresolved ? 1U : 0U, found.error};
+    count += {1, found.error};
   }
   return count;
 }

@@ -9,6 +9,7 @@
 #include "chart/hill_model.hpp"
 #include "chart/matrix_cell.hpp"
 #include "chart/product_table.hpp"
+#include "chart/reciprocal_cells.hpp"
 #include "chart/surrogate_grid.hpp"
 #include "strutt/base/parallel.hpp"
 #include "strutt/chart/stability_chart.hpp"
@@ -31,7 +32,7 @@ class SurrogateCells {
  private:
   /// What a piece adds to the summary.
   struct Count {
-    std::size_t cells = 0, unresolved = 0;
+    std::size_t cells = 0;
     double largest_error = 0.0;
     Count& operator+=(const Count& other);
   };
@@ -53,7 +54,7 @@ class SurrogateCells {
   void damp(const GridPiece& piece, double* values, std::size_t stride, Worker& worker) const;
   Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_factors(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  std::optional<Count> fill_rows(const GridPiece& piece, ChartStrip& strip, Worker& worker, bool every_cell);
+  std::optional<Count> fill_rows(const GridPiece& piece, ChartStrip& strip, Worker& worker, bool along_rows);
   Count fill_cells(const GridPiece& tile, std::size_t r, ChartStrip& strip, Worker& worker, bool is_plain);
   void prepare(const GridPiece& tile, std::size_t r, Worker& worker) const;
   void start_row(const GridPiece& tile, std::size_t r, const GridPiece& piece, Edges& edges,
@@ -70,6 +71,7 @@ class SurrogateCells {
   std::vector<SurrogateBox> boxes_;  // of the surrogate, or with the discriminant alone
   SurrogateGrid grid_;
   ProductTable half_damping_, kappa_square_;
+  std::optional<ReciprocalCells> reciprocal_;  // kind period, where it serves
   std::vector<Worker> workers_;
   std::vector<char> done_;  // cells of the strip
 };

@@ -60,9 +60,10 @@ void compute(CellRow& cells, bool is_plain) {
 
 }  // namespace
 
-/// Turns are counted at the corners of a piece, and followed by the signs of u2 and
-/// u2' along its first and last columns and along its rows. Where these leave a choice, or the ends do not
-/// agree, they are counted at every cell.
+/// Turns are counted at the corners of a piece, and followed by the signs of u2 and u2' along its first and
+/// last columns and along its rows. The ends tell which way a single doubtful step went (in strong tongues
+/// both change sign between two cells); where there are more, or the ends do not agree, they are counted
+/// along each row.
 SurrogateCells::Count SurrogateCells::fill_factors(const GridPiece& piece, ChartStrip& strip,
                                                    Worker& worker) {
   const auto count = fill_rows(piece, strip, worker, false);
@@ -70,7 +71,7 @@ SurrogateCells::Count SurrogateCells::fill_factors(const GridPiece& piece, Chart
 }
 
 std::optional<SurrogateCells::Count> SurrogateCells::fill_rows(const GridPiece& piece, ChartStrip& strip,
-                                                               Worker& worker, bool every_cell) {
+                                                               Worker& worker, bool along_rows) {
   const bool plain = is_plain(grid_.box(piece)) && half_damping_.largest() < kMostPlainLog;
   worker.factors.resize(kTileRows * 4 * kTileColumns);
   CellRow& cells = worker.cells;
@@ -84,14 +85,14 @@ std::optional<SurrogateCells::Count> SurrogateCells::fill_rows(const GridPiece& 
       grid_.evaluate(tile, worker.factors.data(), kTileColumns);
       for (std::size_t r = 0; r < tile.rows; ++r) {
         prepare(tile, r, worker);
-        if (with_winding_ && every_cell) count_turns(tile, r, worker);
-        if (with_winding_ && !every_cell) {
+        if (with_winding_ && along_rows) count_turns(tile, r, worker);
+        if (with_winding_ && !along_rows) {
           cells.turns = turns[r];
           if (column == 0) start_row(tile, r, piece, edges, worker);
         }
         count += fill_cells(tile, r, strip, worker, plain);
         turns[r] = cells.turns;
-        if (with_winding_ && !every_cell && column + tile.columns == piece.columns)
+        if (with_winding_ && !along_rows && column + tile.columns == piece.columns)
           end_row(tile, r, piece, edges, worker);
         if (!edges.agree) return std::nullopt;
       }
@@ -134,7 +135,7 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
   char* const done = &done_[offset];
   if (cells.largest_error <= request_.tolerance && (!with_verdict_ || cells.all_resolved)) {
     std::fill_n(done, tile.columns, 1);
-    return {tile.columns, 0, cells.largest_error};
+    return {tile.columns, cells.largest_error};
   }
   worker.error.resize(kTileColumns);
   worker.verdict.resize(kTileColumns);
@@ -146,7 +147,7 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
   for (std::size_t c = 0; c < tile.columns; ++c) {
     const bool open = with_verdict_ && worker.verdict[c] == static_cast<double>(Verdict::unresolved);
     done[c] = worker.error[c] <= request_.tolerance && !open ? 1 : 0;
-    if (done[c] != 0) count += {1, 0, worker.error[c]};
+    if (done[c] != 0) count += {1, worker.error[c]};
   }
   return count;
 }
@@ -156,7 +157,7 @@ Turns SurrogateCells::turns_at(const GridPiece& tile, std::size_t r, std::size_t
   const auto point =
       worker.model->at(request_.x.value(tile.first_column + c), request_.y.value(tile.first_row + r));
   const double u2 = worker.cells.factors[1][c], du2 = worker.cells.factors[3][c];
-  Turns turns{std::numeric_limits<double>::quiet_NaN(), sign_quadrant(u2, du2), true};
+  Turns turns{std::numeric_limits<double>::quiet_NaN(), sign_quadrant(u2, du2), 0};
   if (!point) return turns;
   turns.quadrant =
       std::floor(lifted_angle(point->equation.coefficient, pi, u2, du2, grid_.box(tile).kappa) / (0.5 * pi));
@@ -174,7 +175,7 @@ void SurrogateCells::start_row(const GridPiece& tile, std::size_t r, const GridP
     if (row + 1 == piece.rows)
       edges.agree = edges.agree && edges.left.quadrant == turns_at(tile, r, 0, worker).quadrant;
   }
-  worker.cells.turns = edges.left;
+  worker.cells.turns = {edges.left.quadrant, edges.left.pattern, 0};
 }
 
 /// Turns at the last cell of a row: those that come along the row and down the column must be the same.
@@ -189,14 +190,31 @@ void SurrogateCells::end_row(const GridPiece& tile, std::size_t r, const GridPie
       edges.agree = edges.agree && edges.right.quadrant == turns_at(tile, r, c, worker).quadrant;
   }
   const Turns& along = worker.cells.turns;
-  edges.agree = edges.agree && along.certain && edges.right.certain && along.quadrant == edges.right.quadrant;
+  edges.agree = edges.agree && std::max({edges.left.doubts, edges.right.doubts, along.doubts}) <= 1 &&
+                along.quadrant == edges.right.quadrant;
 }
 
+/// At both ends, and on both sides of a step that leaves a choice. If what was followed up to one of these is
+/// not what is counted there, at every cell.
 void SurrogateCells::count_turns(const GridPiece& tile, std::size_t r, Worker& worker) const {
   worker.quarter_turns.resize(kTileColumns);
-  for (std::size_t c = 0; c < tile.columns; ++c)
-    worker.quarter_turns[c] = turns_at(tile, r, c, worker).quadrant + 0.5;
-  worker.cells.quarter_turns = worker.quarter_turns.data();
+  double* const result = worker.quarter_turns.data();
+  const std::size_t last = tile.columns - 1;
+  Turns now = turns_at(tile, r, 0, worker);
+  bool agree = true;
+  for (std::size_t c = 0; c <= last; ++c) {
+    const Turns before = now;
+    if (c > 0) now.follow(worker.cells.factors[1][c], worker.cells.factors[3][c]);
+    if (now.doubts > 0) {
+      agree = agree && before.quadrant == turns_at(tile, r, c - 1, worker).quadrant;
+      now = turns_at(tile, r, c, worker);
+    }
+    result[c] = now.quadrant + 0.5;
+  }
+  if (!agree || now.quadrant != turns_at(tile, r, last, worker).quadrant) {
+    for (std::size_t c = 0; c <= last; ++c) result[c] = turns_at(tile, r, c, worker).quadrant + 0.5;
+  }
+  worker.cells.quarter_turns = result;
 }
 
 }  // namespace strutt

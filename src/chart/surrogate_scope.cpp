@@ -8,25 +8,6 @@
 namespace strutt {
 namespace {
 
-/// The models at three values of each parameter, the centre first; nothing if there is none somewhere.
-std::optional<std::vector<LinearModel>> models_of(const Scene& scene, const Axis& x, const Axis& y) {
-  Scene point = scene;
-  const Axis few_x{x.parameter, x.from, x.to, 3, x.scale}, few_y{y.parameter, y.from, y.to, 3, y.scale};
-  std::vector<LinearModel> models;
-  for (const std::size_t j : {1, 0, 2}) {
-    for (const std::size_t i : {1, 0, 2}) {
-      parameter(point, x.parameter) = few_x.value(i);
-      parameter(point, y.parameter) = few_y.value(j);
-      try {
-        models.push_back(linear_model(point));
-      } catch (const InvalidInput&) {
-        return std::nullopt;
-      }
-    }
-  }
-  return models;
-}
-
 /// The phase about which all coefficients are even, 0 if all are constant.
 std::optional<double> common_even_phase(const std::vector<PeriodicFunction>& coefficients) {
   const auto first =
@@ -53,6 +34,24 @@ SurrogateScope scope_of_systems(const std::vector<LinearModel>& models) {
 
 }  // namespace
 
+std::optional<std::vector<LinearModel>> sampled_models(const Scene& scene, const Axis& x, const Axis& y) {
+  Scene point = scene;
+  const Axis few_x{x.parameter, x.from, x.to, 3, x.scale}, few_y{y.parameter, y.from, y.to, 3, y.scale};
+  std::vector<LinearModel> models;
+  for (const std::size_t j : {1, 0, 2}) {
+    for (const std::size_t i : {1, 0, 2}) {
+      parameter(point, x.parameter) = few_x.value(i);
+      parameter(point, y.parameter) = few_y.value(j);
+      try {
+        models.push_back(linear_model(point));
+      } catch (const InvalidInput&) {
+        return std::nullopt;
+      }
+    }
+  }
+  return models;
+}
+
 std::optional<HillEquation> hill_equation_of(const LinearModel& model) {
   if (const auto* equation = std::get_if<HillEquation>(&model)) return *equation;
   return as_hill_equation(std::get<LinearPeriodicSystem>(model));
@@ -72,7 +71,7 @@ SystemDamping damping_of(const LinearPeriodicSystem& system) {
 
 SurrogateScope surrogate_scope(const Scene& scene, const Axis& x, const Axis& y) {
   SurrogateScope scope;
-  const auto models = models_of(scene, x, y);
+  const auto models = sampled_models(scene, x, y);
   if (!models) {
     scope.refusal = "the parameters do not make a model everywhere";
     return scope;

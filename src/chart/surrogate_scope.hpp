@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "strutt/chart/surrogate.hpp"
 #include "strutt/floquet/stability.hpp"
@@ -18,6 +19,9 @@ struct SurrogateScope {
   std::string refusal;               ///< empty: there can be one
 };
 SurrogateScope surrogate_scope(const Scene& scene, const Axis& x, const Axis& y);
+
+/// The models there, the centre first; nothing if there is none somewhere.
+std::optional<std::vector<LinearModel>> sampled_models(const Scene& scene, const Axis& x, const Axis& y);
 
 /// The Hill equation that a model is, if it is one.
 std::optional<HillEquation> hill_equation_of(const LinearModel& model);

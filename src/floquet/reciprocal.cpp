@@ -1,10 +1,9 @@
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 
 #include "floquet/lapack.hpp"
+#include "floquet/reciprocal_sums.hpp"
 #include "strutt/floquet/multipliers.hpp"
 
 namespace strutt {
@@ -81,37 +80,8 @@ MatrixXd isotropic_restriction(const MatrixXd& s) {
   return h;
 }
 
-/// ln|lambda| >= 0 and its error from rho = (mantissa) 2^exponent = lambda + 1/lambda.
-struct LogModulus {
-  double value, error;
-};
-LogModulus log_modulus(std::complex<double> mantissa, double error, long exponent) {
-  const double log_rho = std::log(std::abs(mantissa)) + static_cast<double>(exponent) * std::numbers::ln2;
-  if (log_rho > 30.0) return {log_rho, error / std::abs(mantissa) + kUnit * log_rho};
-  const double scale = std::ldexp(1.0, static_cast<int>(std::max(exponent, -2000L)));
-  const std::complex<double> half = 0.5 * scale * mantissa;
-  const std::complex<double> root = std::sqrt((half - 1.0) * (half + 1.0));
-  const double modulus = std::max(std::abs(half + root), std::abs(half - root));
-  const double shift = 0.5 * scale * error;
-  return {std::log(modulus), std::min(shift / std::abs(root), std::sqrt(2.0 * shift) + shift) + 4.0 * kUnit};
-}
-
-/// 1 - |rho|/(2 cosh h).
-Margin real_margin(double mantissa, double error, long exponent, double h) {
-  const double log_cosh = h + std::log1p(std::exp(-2.0 * h));
-  const double log_scale = static_cast<double>(exponent) * std::numbers::ln2 - log_cosh;
-  if (std::log(std::abs(mantissa)) + log_scale > 690.0) return {kLowestMargin, 0.0};
-  const double scale = std::exp(log_scale);
-  return {1.0 - std::abs(mantissa) * scale, error * scale + 8.0 * kUnit * (1.0 + h) * (1.0 + std::abs(mantissa) * scale)};
-}
-
-struct Rho {
-  std::complex<double> value;
-  double error;
-};
-
 /// Whether two of them cannot be told apart: a complex pair may then be two real ones, and the other way round.
-bool any_collision(const std::vector<Rho>& rho) {
+bool any_collision(const std::vector<MultiplierSum>& rho) {
   for (std::size_t j = 0; j < rho.size(); ++j) {
     for (std::size_t k = 0; k < j; ++k) {
       if (!(std::abs(rho[j].value - rho[k].value) > rho[j].error + rho[k].error)) return true;
@@ -131,38 +101,19 @@ SystemStability reciprocal_stability(const BoundedMatrix& undamped, const Matrix
   const MatrixXd canonical = to * undamped.value.mantissa * from;
   const MatrixXd size = to.cwiseAbs() * (undamped.error + 8.0 * static_cast<double>(n) * kUnit * undamped.value.mantissa.cwiseAbs()) *
                         from.cwiseAbs();
+  const long exponent = undamped.value.exponent;
+  if (d == 2) {
+    return reciprocal_stability({canonical.topLeftCorner<2, 2>(), canonical.topRightCorner<2, 2>(),
+                                 canonical.bottomLeftCorner<2, 2>(), canonical.bottomRightCorner<2, 2>(),
+                                 size.topLeftCorner<2, 2>(), size.topRightCorner<2, 2>(),
+                                 size.bottomLeftCorner<2, 2>(), size.bottomRightCorner<2, 2>()},
+                                exponent, half_damping);
+  }
   const double perturbation = 2.0 * size.norm();
   const auto eigen = lapack::eigenvalues(isotropic_restriction(sum_with_inverse(canonical)));
-  const long exponent = undamped.value.exponent;
-
-  std::vector<Rho> rho;
+  std::vector<MultiplierSum> rho;
   for (Eigen::Index j = 0; j < d; ++j) rho.push_back({eigen.values[j], kSafety * perturbation / eigen.condition[j]});
-  bool all_real = true;
-  Margin least{1.0, 0.0};
-  LogModulus largest{0.0, 0.0};
-  for (const auto& r : rho) {
-    all_real = all_real && r.value.imag() == 0.0;
-    const auto margin = real_margin(r.value.real(), r.error, exponent, half_damping);
-    if (margin.value < least.value) least = margin;
-    least.error = std::max(least.error, margin.value == least.value ? margin.error : 0.0);
-    const bool on_circle = r.value.imag() == 0.0 && std::ldexp(std::abs(r.value.real()), static_cast<int>(exponent)) <= 2.0;
-    const auto modulus = on_circle ? LogModulus{0.0, 0.0} : log_modulus(r.value, r.error, exponent);
-    if (modulus.value > largest.value) largest = modulus;
-  }
-  SystemStability result;
-  result.growth = largest.value - half_damping;
-  const Margin by_growth{-result.growth, largest.error + 4.0 * kUnit * half_damping};
-  if (!any_collision(rho)) {
-    result.margin = all_real ? least : by_growth;
-    return result;
-  }
-  // Real or complex cannot be told: the margin lies between the two formulas.
-  const double a = least.value, b = by_growth.value;
-  result.margin = {0.5 * (a + b), 0.5 * std::abs(a - b) + std::max(least.error, by_growth.error)};
-  if (half_damping == 0.0 && result.margin.value > -result.margin.error) {
-    result.margin.error = std::max(result.margin.error, std::abs(result.margin.value));  // growth 0 proves nothing
-  }
-  return result;
+  return stability_of(rho, any_collision(rho), exponent, half_damping);
 }
 
 }  // namespace strutt
