@@ -56,6 +56,7 @@ struct TonguesArguments : CommonArguments {
   std::string along;
   std::optional<std::string> at;
   std::optional<std::string> count;
+  bool growth = false;
 };
 
 struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not given
@@ -78,6 +79,11 @@ struct PortraitArguments : CommonArguments {  // the scene may be missing
   std::optional<std::string> figure;
 };
 
+struct TradeoffArguments : CommonArguments {
+  std::optional<std::string> samples;
+  std::optional<std::string> figure;
+};
+
 /// --help or --version: text for standard output, nothing else to do.
 struct Information {
   std::string text;
@@ -85,6 +91,7 @@ struct Information {
 
 using Arguments =
     std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
-                 PortraitArguments, NormalFormArguments, CharacteristicArguments, TonguesArguments>;
+                 PortraitArguments, NormalFormArguments, CharacteristicArguments,
+                 TonguesArguments, TradeoffArguments>;
 
 }  // namespace strutt::app

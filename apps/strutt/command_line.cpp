@@ -175,6 +175,8 @@ CLI::App* add_tongues(CLI::App& app, TonguesArguments& arguments) {
   command->add_option("--at", arguments.at, "CSV file whose header names further parameters: a line per row")
       ->type_name("IN.csv");
   command->add_option("--count", arguments.count, "tongues n = 0 ... N - 1 (default: all on the line)")->type_name("N");
+  command->add_flag("--growth", arguments.growth,
+                    "add the largest growth per period between both edges, and where");
   command->footer(std::string(kTonguesExample) + kExitCodes);
   return command;
 }
@@ -203,6 +205,22 @@ CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
                    "with --points and --compare: draw periods and errors as .png, .svg or .pdf")
       ->type_name("FILE");
   command->footer(std::string(kPeriodExample) + kExitCodes);
+  return command;
+}
+
+CLI::App* add_tradeoff(CLI::App& app, TradeoffArguments& arguments) {
+  auto* command = app.add_subcommand("tradeoff", "speed and accuracy of every method that fits a scene, measured");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "measure at this one only", "propagator, cvode, arkode, exact: this one only",
+             "1e-13 to 1e-2 (default: every decade)");
+  command
+      ->add_option("--samples", arguments.samples,
+                   "points scattered over the box of [chart] (default 64); 0, or no box: the scene as it stands")
+      ->type_name("N");
+  command->add_option("--figure", arguments.figure, "draw speed over accuracy as .png, .svg or .pdf")
+      ->type_name("FILE");
+  command->footer(std::string("Exit code 1: a result is further from the truth than its error bound.\n") +
+                  kTradeoffExample + kExitCodes);
   return command;
 }
 
@@ -251,6 +269,7 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   PeriodArguments period;
   PortraitArguments portrait;
   NormalFormArguments normal_form;
+  TradeoffArguments tradeoff;
   CharacteristicArguments characteristic;
   TonguesArguments tongues;
   const std::vector<Command> commands{command(add_chart, app, chart),
@@ -259,7 +278,9 @@ Arguments parse_command_line(int argc, const char* const* argv) {
                                       command(add_period, app, period),
                                       command(add_portrait, app, portrait),
                                       command(add_normal_form, app, normal_form),
-                                      command(add_characteristic, app, characteristic), command(add_tongues, app, tongues)};
+                                      command(add_characteristic, app, characteristic),
+                                      command(add_tongues, app, tongues),
+                                      command(add_tradeoff, app, tradeoff)};
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto parsed = app.get_subcommands();

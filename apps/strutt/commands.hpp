@@ -14,5 +14,6 @@ ExitCode run(const TonguesArguments& arguments);
 ExitCode run(const PeriodArguments& arguments);
 ExitCode run(const NormalFormArguments& arguments);
 ExitCode run(const PortraitArguments& arguments);
+ExitCode run(const TradeoffArguments& arguments);
 
 }  // namespace strutt::app

@@ -56,4 +56,10 @@ Examples:
   strutt portrait scene.toml --curves 10 --sections 20 -o sections.npz || test $? -eq 1
 )";
 
+inline constexpr const char* kTradeoffExample = R"(
+Example:
+  printf '[mathieu]\ndelta = 1\nepsilon = 0.5\n' > scene.toml
+  strutt tradeoff scene.toml -o tradeoff.csv --figure tradeoff.png
+)";
+
 }  // namespace strutt::app

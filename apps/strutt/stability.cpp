@@ -193,7 +193,7 @@ std::vector<std::string> plan_lines(const Scene& scene, const Points& points, co
                                     int threads) {
   const Method method = method_for(linear_model(scene), options.method);
   const int used = thread_count({.threads = threads});
-  const double seconds = static_cast<double>(points.values.size()) * expected_seconds_per_point(method) / used;
+  const double seconds = static_cast<double>(points.values.size()) * expected_seconds_per_point(method, linear_model(scene)) / used;
   return {fmt::format("points: {}", points.values.size()), fmt::format("states: {}", states_of(scene)),
           fmt::format("expected time: {:.2g} s", seconds), "method: " + std::string(to_string(method)),
           "tolerance: " + to_text(options.tolerance), fmt::format("threads: {}", used)};

@@ -2,29 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace strutt {
 
-void CellColumns::set(const ProductTable& half_damping, const ProductTable& kappa_square, std::size_t row,
-                      std::size_t first_column, std::size_t columns) {
-  if (is_new_) {
-    h_.fill(std::numeric_limits<double>::quiet_NaN());  // equal to nothing
-    kappa_square_ = h_;
-    for (auto* values : {&decay_, &half_sinh_, &sinh_, &cosh_, &half_over_cosh_, &kappa_, &inverse_kappa_})
-      values->fill(1.0);
-    is_new_ = false;
-  }
-  set_damping(half_damping, row, first_column, columns);
-  set_kappa(kappa_square, row, first_column, columns);
+void CellColumns::resize(std::size_t columns) {
+  const std::size_t size = columns + kPadding;
+  for (auto* values : {&h_, &kappa_square_})
+    values->assign(size, std::numeric_limits<double>::quiet_NaN());  // equal to nothing
+  for (auto* values : {&decay_, &half_sinh_, &sinh_, &cosh_, &half_over_cosh_, &kappa_, &inverse_kappa_})
+    values->assign(size, 1.0);
 }
 
-void CellColumns::set_damping(const ProductTable& half_damping, std::size_t row, std::size_t first_column,
-                              std::size_t columns) {
-  for (std::size_t c = 0; c < columns; ++c) {
-    const double h = half_damping(first_column + c, row);
+void CellColumns::set(const ProductTable& half_damping, const ProductTable& kappa_square, std::size_t row,
+                      std::size_t first_column, std::size_t columns) {
+  if (complete_) return;
+  if (h_.empty()) resize(half_damping.columns());
+  complete_ = half_damping.same_in_all_rows() && kappa_square.same_in_all_rows();
+  const std::size_t first = complete_ ? 0 : first_column,
+                    last = complete_ ? half_damping.columns() : first_column + columns;
+  set_damping(half_damping, row, first, last);
+  set_kappa(kappa_square, row, first, last);
+}
+
+void CellColumns::set_damping(const ProductTable& half_damping, std::size_t row, std::size_t first,
+                              std::size_t last) {
+  for (std::size_t c = first; c < last; ++c) {
+    const double h = half_damping(c, row);
     if (h == h_[c]) continue;
     h_[c] = h;
-    const bool as_before = c > 0 && h == h_[c - 1];
+    const bool as_before = c > first && h == h_[c - 1];
     decay_[c] = as_before ? decay_[c - 1] : std::exp(-h);
     half_sinh_[c] = as_before ? half_sinh_[c - 1] : std::sinh(0.5 * h);
     sinh_[c] = as_before ? sinh_[c - 1] : std::sinh(h);
@@ -33,10 +40,10 @@ void CellColumns::set_damping(const ProductTable& half_damping, std::size_t row,
   }
 }
 
-void CellColumns::set_kappa(const ProductTable& kappa_square, std::size_t row, std::size_t first_column,
-                            std::size_t columns) {
-  for (std::size_t c = 0; c < columns; ++c) {
-    const double square = kappa_square(first_column + c, row);
+void CellColumns::set_kappa(const ProductTable& kappa_square, std::size_t row, std::size_t first,
+                            std::size_t last) {
+  for (std::size_t c = first; c < last; ++c) {
+    const double square = kappa_square(c, row);
     if (square == kappa_square_[c]) continue;
     kappa_square_[c] = square;
     kappa_[c] = std::max(1.0, std::sqrt(square));
@@ -44,11 +51,11 @@ void CellColumns::set_kappa(const ProductTable& kappa_square, std::size_t row, s
   }
 }
 
-void CellColumns::give(CellRow& row) const {
-  row.damping = {h_.data(),    decay_.data(), half_sinh_.data(),
-                 sinh_.data(), cosh_.data(),  half_over_cosh_.data()};
-  row.kappa = kappa_.data();
-  row.inverse_kappa = inverse_kappa_.data();
+void CellColumns::give(CellRow& row, std::size_t column) const {
+  row.damping = {h_.data() + column,    decay_.data() + column, half_sinh_.data() + column,
+                 sinh_.data() + column, cosh_.data() + column,  half_over_cosh_.data() + column};
+  row.kappa = kappa_.data() + column;
+  row.inverse_kappa = inverse_kappa_.data() + column;
 }
 
 }  // namespace strutt

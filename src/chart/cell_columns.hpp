@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <limits>
+#include <cstddef>
 #include <vector>
 
 #include "chart/cell_row.hpp"
@@ -13,22 +12,24 @@ namespace strutt {
 /// stay the same, which they mostly do from row to row or along a row.
 class CellColumns {
  public:
+  /// For some columns of a row.
   void set(const ProductTable& half_damping, const ProductTable& kappa_square, std::size_t row,
            std::size_t first_column, std::size_t columns);
 
-  /// Lets the row point here.
-  void give(CellRow& row) const;
+  /// Lets the row point here, from `column` on; to the next multiple of kPadding cells there is something to
+  /// read.
+  void give(CellRow& row, std::size_t column) const;
 
  private:
-  using Column = std::array<double, CellRow::kMost>;
+  static constexpr std::size_t kPadding = 16;
 
-  void set_damping(const ProductTable& half_damping, std::size_t row, std::size_t first_column,
-                   std::size_t columns);
-  void set_kappa(const ProductTable& kappa_square, std::size_t row, std::size_t first_column,
-                 std::size_t columns);
+  void resize(std::size_t columns);
+  void set_damping(const ProductTable& half_damping, std::size_t row, std::size_t first, std::size_t last);
+  void set_kappa(const ProductTable& kappa_square, std::size_t row, std::size_t first, std::size_t last);
 
-  Column h_, decay_, half_sinh_, sinh_, cosh_, half_over_cosh_, kappa_, kappa_square_, inverse_kappa_;
-  bool is_new_ = true;
+  std::vector<double> h_, decay_, half_sinh_, sinh_, cosh_, half_over_cosh_, kappa_, kappa_square_,
+      inverse_kappa_;
+  bool complete_ = false;  // the same in all rows, and all set
 };
 
 }  // namespace strutt

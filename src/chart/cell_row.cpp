@@ -23,28 +23,41 @@ double trace_of(const HalfPeriodFactors& f, double half_damping) {
   return std::ldexp(2.0 * decay * half_trace, static_cast<int>(exponent));
 }
 
+void put(double* results, std::size_t c, double value) {
+  if (results != nullptr) results[c] = value;
+}
+
 }  // namespace
 
 void cells_in_log_form(CellRow& row) {
+  row.largest_error = 0.0;
+  row.all_resolved = true;
   for (std::size_t c = 0; c < row.count; ++c) {
     const double h = row.damping.h[c], kappa = row.kappa[c];
     HalfPeriodFactors factors{{}, row.factor_error, row.exponent};
     for (std::size_t f = 0; f < 4; ++f) factors.value[f] = row.factors[f][c];
     const double ratio = kappa / row.box_kappa;
-    std::array<double, 4> value = factors.value, error = factors.error;
+    std::array<double, 4> value = factors.value, bounds = factors.error;
     for (const auto& [f, factor] : {std::pair<std::size_t, double>{1, ratio}, {2, 1.0 / ratio}}) {
       value[f] *= factor;
-      error[f] = error[f] * factor + 2.0 * kUnit * std::abs(value[f]);
+      bounds[f] = bounds[f] * factor + 2.0 * kUnit * std::abs(value[f]);
     }
-    row.error[c] = monodromy_error(value, error, {row.exponent, h, kappa, row.shifted});
+    const double error = monodromy_error(value, bounds, {row.exponent, h, kappa, row.shifted});
     const auto gap = discriminant_gap(factors);
     const Margin margin = hill_margin(gap, h);
-    row.margin[c] = margin.value;
-    row.verdict[c] = static_cast<double>(verdict_of(margin));
-    row.growth[c] = hill_growth(gap, h);
-    row.trace[c] = written_trace(trace_of(factors, h));
-    if (row.with_winding)
-      row.winding[c] = winding_number(factors, gap, quadrant(factors, row.quarter_turns[c]));
+    const Verdict verdict = verdict_of(margin);
+    if (!(error <= row.largest_error)) row.largest_error = error;
+    row.all_resolved = row.all_resolved && verdict != Verdict::unresolved;
+    put(row.error, c, error);
+    put(row.margin, c, margin.value);
+    put(row.verdict, c, static_cast<double>(verdict));
+    put(row.growth, c, hill_growth(gap, h));
+    put(row.trace, c, written_trace(trace_of(factors, h)));
+    if (row.winding == nullptr) continue;
+    if (row.quarter_turns == nullptr) row.turns.follow(factors.value[1], factors.value[3]);
+    const double turns =
+        row.quarter_turns == nullptr ? row.turns.quadrant : quadrant(factors, row.quarter_turns[c]);
+    row.winding[c] = winding_number(factors, gap, turns);
   }
 }
 

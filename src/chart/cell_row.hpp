@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 
+#include "floquet/half_period_factors.hpp"
+
 namespace strutt {
 
 /// What damping does to the cells of a row: functions of h = cT/2.
@@ -15,13 +17,24 @@ struct DampingRow {
   const double* half_over_cosh;  ///< 1/(2 cosh(h))
 };
 
+/// The quadrant of the angle of (u2', u2), whole turns counted, followed from cell to cell by the signs.
+struct Turns {
+  double quadrant = 0.0;
+  int pattern = 0;      ///< sign_quadrant of the cell
+  bool certain = true;  ///< the signs never left a choice
+
+  void follow(double u2, double du2) {
+    const int here = sign_quadrant(u2, du2), step = (here - pattern + 5) % 4 - 1;  // -1, 0, 1 or 2
+    certain = certain && step != 2;
+    quadrant += step;
+    pattern = here;
+  }
+};
+
 /// Cells of one row of a chart in one box: from half-period factors to layers.
 struct CellRow {
-  static constexpr std::size_t kMost = 512;
-
   std::size_t count = 0;
   std::array<const double*, 4> factors{};  ///< u1, kappa u2, u1'/kappa, u2' with the box's kappa and exponent
-  const double* quarter_turns = nullptr;   ///< the angle of (u2', u2), to less than two of them
   std::array<double, 4> factor_error{};
   long exponent = 0;
   double box_kappa = 1.0;
@@ -29,10 +42,20 @@ struct CellRow {
   const double* kappa = nullptr;  ///< per cell, canonical
   const double* inverse_kappa = nullptr;
   DampingRow damping{};
-  bool with_growth = false, with_winding = false;
+  bool damped = true;  ///< false: h = 0 in all cells
 
-  /// Results. error: Monodromy::error. `verdict` as the enumerator's value.
-  alignas(64) double error[kMost], verdict[kMost], margin[kMost], growth[kMost], winding[kMost], trace[kMost];
+  /// For the winding: the angle of (u2', u2) in quarter turns, to less than two of them. Without it, those of
+  /// the cell before the first, which become those of the last.
+  const double* quarter_turns = nullptr;
+  Turns turns;
+
+  /// Results per cell; those without a place are left out. error: Monodromy::error. `verdict` as the
+  /// enumerator's value.
+  double *error = nullptr, *verdict = nullptr, *margin = nullptr, *growth = nullptr, *winding = nullptr,
+         *trace = nullptr;
+
+  double largest_error = 0.0;  ///< of all cells; NaN if one is
+  bool all_resolved = false;   ///< no verdict is `unresolved`
 };
 
 /// Growth, in ln|D| and h, that `plain_cells` takes.
@@ -41,9 +64,8 @@ inline constexpr double kMostPlainLog = 190.0;
 /// As Monodromy and floquet/verdict do it, one cell after the other; any growth and damping.
 void cells_in_log_form(CellRow& row);
 
-/// The same in vector code, for |D| and h up to kMostPlainLog. Inputs must be readable, and
-/// results are written, up to the next multiple of 16 cells. Products near the edge of their bounds count as
-/// unresolved.
+/// The same in vector code, for |D| and h up to kMostPlainLog. Inputs must be readable up to the next
+/// multiple of 8 cells. Products near the edge of their bounds count as unresolved.
 void plain_cells(CellRow& row);
 
 }  // namespace strutt

@@ -18,13 +18,14 @@ constexpr std::size_t kStripCells = 65'536;
 // Cost of a cell, measured on one core of a 2020s server at tolerance 1e-9; for the forecast only.
 struct CellCost {
   Method method;
-  double seconds;
+  double seconds;            // of a Hill equation
+  double seconds_of_system;  // of four states
 };
-constexpr CellCost kCellCosts[] = {{Method::surrogate, 2e-8},
-                                   {Method::exact, 5e-6},
-                                   {Method::propagator, 1.5e-5},
-                                   {Method::arkode, 4e-4},
-                                   {Method::cvode, 4e-4}};
+constexpr CellCost kCellCosts[] = {{Method::surrogate, 2e-8, 4e-6},
+                                   {Method::exact, 2e-6, 2e-6},
+                                   {Method::propagator, 1e-6, 1.6e-5},
+                                   {Method::arkode, 1e-4, 1.8e-4},
+                                   {Method::cvode, 5e-4, 1.2e-3}};
 
 constexpr double kMatrixCellSeconds = 4e-6;  // surrogates of whole periods: eigenvalues cell by cell
 
@@ -52,9 +53,10 @@ double memory_budget() {
   return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-double expected_seconds_per_point(Method method) {
+double expected_seconds_per_point(Method method, const LinearModel& model) {
+  const bool system = std::holds_alternative<LinearPeriodicSystem>(model);
   for (const auto& cost : kCellCosts) {
-    if (cost.method == method) return cost.seconds;
+    if (cost.method == method) return system ? cost.seconds_of_system : cost.seconds;
   }
   return 0.0;
 }
@@ -89,7 +91,7 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   const bool matrices =
       interpolated && surrogate_scope(scene, request.x, request.y).kind == SurrogateKind::period;
   plan.expected_seconds =
-      cells * (matrices ? kMatrixCellSeconds : expected_seconds_per_point(plan.method)) / plan.threads;
+      cells * (matrices ? kMatrixCellSeconds : expected_seconds_per_point(plan.method, model)) / plan.threads;
   const double bytes = std::max(plan.result_bytes, plan.working_bytes);
   if (bytes > plan.budget_bytes && !request.force) {
     throw MemoryBudgetExceeded("a chart of " + std::to_string(nx) + " x " + std::to_string(ny) +

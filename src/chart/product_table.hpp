@@ -20,6 +20,7 @@ class ProductTable {
   /// g at column i, row j, with a relative error of at most 2 units in the last place more than g itself has.
   double operator()(std::size_t i, std::size_t j) const { return columns_[i] * rows_[j]; }
 
+  std::size_t columns() const { return columns_.size(); }
   bool same_in_all_rows() const { return same_in_all_rows_; }
   bool same_in_all_columns() const { return same_in_all_columns_; }
   double largest() const { return largest_; }  ///< bound of the absolute values

@@ -33,26 +33,38 @@ class SurrogateCells {
   struct Count {
     std::size_t cells = 0, unresolved = 0;
     double largest_error = 0.0;
+    Count& operator+=(const Count& other);
+  };
+  /// The turns of the factors at the ends of rows, see fill_factors.
+  struct Edges {
+    Turns left, right;
+    bool agree = true;
   };
   struct Worker {
-    FactorRow factors;
+    std::vector<double> factors, error, verdict, quarter_turns;
     CellRow cells;
     CellColumns columns;
-    std::vector<double> quarter_turns;
     std::unique_ptr<HillModel> model;    // kind half_period: to count turns
     std::unique_ptr<MatrixCell> matrix;  // kind period
   };
 
-  Count fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
-  void compute_cells(const GridPiece& piece, Worker& worker) const;
-  void count_turns(const GridPiece& piece, Worker& worker) const;
-  double quadrant_at(const GridPiece& piece, std::size_t c, Worker& worker) const;
-  Count write(const GridPiece& piece, const CellRow& cells, ChartStrip& strip);
+  Count fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker);
+  void damp(const GridPiece& piece, double* values, std::size_t stride, Worker& worker) const;
+  Count fill_matrices(const GridPiece& piece, ChartStrip& strip, Worker& worker);
+  Count fill_factors(const GridPiece& piece, ChartStrip& strip, Worker& worker);
+  std::optional<Count> fill_rows(const GridPiece& piece, ChartStrip& strip, Worker& worker, bool every_cell);
+  Count fill_cells(const GridPiece& tile, std::size_t r, ChartStrip& strip, Worker& worker, bool is_plain);
+  void prepare(const GridPiece& tile, std::size_t r, Worker& worker) const;
+  void start_row(const GridPiece& tile, std::size_t r, const GridPiece& piece, Edges& edges,
+                 Worker& worker) const;
+  void end_row(const GridPiece& tile, std::size_t r, const GridPiece& piece, Edges& edges,
+               Worker& worker) const;
+  Turns turns_at(const GridPiece& tile, std::size_t r, std::size_t c, Worker& worker) const;
+  void count_turns(const GridPiece& tile, std::size_t r, Worker& worker) const;
 
   ChartRequest request_;
-  bool with_verdict_ = false;
+  bool with_verdict_ = false, with_winding_ = false;
   ParallelOptions parallel_;
   Surrogate surrogate_;
   std::vector<SurrogateBox> boxes_;  // of the surrogate, or with the discriminant alone

@@ -23,13 +23,20 @@ std::vector<double> coordinates_of(const Axis& axis, double low, double high) {
 }
 
 /// weights[k] = sum_l c(k, l) T_l, the function along a row as a sum of T_k. Small terms first.
-void contract(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, double* weights) {
+void weigh(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, double* weights) {
   std::fill_n(weights, c.rows(), 0.0);
   for (Eigen::Index l = c.cols(); l-- > 0;) {
     const double* const column = c.data() + l * c.rows();
     const double factor = polynomials[static_cast<std::size_t>(l)];
     for (Eigen::Index k = 0; k < c.rows(); ++k) weights[k] += column[k] * factor;
   }
+}
+
+/// Pieces of about the same width, of whole tiles.
+std::size_t width_of_pieces(std::size_t columns) {
+  const std::size_t pieces = (columns + GridPiece::kMostColumns - 1) / GridPiece::kMostColumns;
+  const std::size_t width = (columns + pieces - 1) / pieces;
+  return (width + GridPiece::kTileColumns - 1) / GridPiece::kTileColumns * GridPiece::kTileColumns;
 }
 
 }  // namespace
@@ -49,7 +56,7 @@ SurrogateGrid::SurrogateGrid(const std::vector<SurrogateBox>& boxes, const Axis&
     if (!box.interpolated) continue;
     const Range columns = indices_in(x_, box.low[0], box.high[0], box.high[0] == whole.high[0]);
     const Range rows = indices_in(y_, box.low[1], box.high[1], box.high[1] == whole.high[1]);
-    if (!columns.empty() && !rows.empty()) boxes_.push_back({&box, columns, rows, {}});
+    if (!columns.empty() && !rows.empty()) boxes_.push_back({&box, columns, rows, {}, {}, {}});
   }
 }
 
@@ -66,22 +73,37 @@ SurrogateGrid::Range SurrogateGrid::indices_in(const std::vector<double>& coordi
           static_cast<std::size_t>(last - coordinates.begin())};
 }
 
-std::size_t SurrogateGrid::padded(const Range& columns) {
-  constexpr std::size_t block = detail::kTensorColumns;
-  return (columns.last - columns.first + block - 1) / block * block;
-}
-
 void SurrogateGrid::tabulate(Box& box) const {
-  const std::size_t count = box.columns.last - box.columns.first, stride = padded(box.columns);
-  const std::size_t terms = static_cast<std::size_t>(box.box->coefficients[0].rows());
+  const std::size_t count = box.columns.size();
+  const auto terms = static_cast<std::size_t>(box.box->coefficients[0].rows());
   std::vector<double> t;
   for (std::size_t i = box.columns.first; i < box.columns.last; ++i) t.push_back(local(*box.box, 0, x_[i]));
   Eigen::MatrixXd columns;
   chebyshev::polynomials(t, static_cast<int>(terms) - 1, columns);
-  box.basis.assign(terms * stride, 0.0);
+  box.basis.resize(terms * count);
   for (std::size_t k = 0; k < terms; ++k) {
     for (std::size_t c = 0; c < count; ++c)
-      box.basis[k * stride + c] = columns(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k));
+      box.basis[k * count + c] = columns(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k));
+  }
+}
+
+void SurrogateGrid::contract(Box& box, const Range& rows) const {
+  const auto& coefficients = box.box->coefficients;
+  const auto terms = static_cast<std::size_t>(coefficients[0].rows());
+  const std::size_t functions = coefficients.size(), stride = rows.size() * functions;
+  std::vector<double> t, polynomials(static_cast<std::size_t>(coefficients[0].cols())), sums(terms);
+  for (std::size_t j = rows.first; j < rows.last; ++j) t.push_back(local(*box.box, 1, y_[j]));
+  Eigen::MatrixXd values;
+  chebyshev::polynomials(t, static_cast<int>(polynomials.size()) - 1, values);
+  box.weights.resize(terms * stride);
+  box.weighted = rows;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t l = 0; l < polynomials.size(); ++l)
+      polynomials[l] = values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(l));
+    for (std::size_t f = 0; f < functions; ++f) {
+      weigh(coefficients[f], polynomials, sums.data());
+      for (std::size_t k = 0; k < terms; ++k) box.weights[k * stride + r * functions + f] = sums[k];
+    }
   }
 }
 
@@ -89,50 +111,33 @@ std::vector<GridPiece> SurrogateGrid::pieces(std::size_t first_row, std::size_t 
   std::vector<GridPiece> result;
   for (std::size_t b = 0; b < boxes_.size(); ++b) {
     auto& box = boxes_[b];
-    const std::size_t first = std::max(box.rows.first, first_row),
-                      last = std::min(box.rows.last, first_row + rows);
+    const Range here{std::max(box.rows.first, first_row), std::min(box.rows.last, first_row + rows)};
     if (box.rows.last <= first_row) box.basis = {};  // its rows are over
-    if (first >= last) continue;
+    if (here.empty()) continue;
     if (box.basis.empty()) tabulate(box);
-    for (std::size_t row = first; row < last; ++row) {
-      for (std::size_t c = box.columns.first; c < box.columns.last; c += FactorRow::stride)
-        result.push_back({b, row, c, std::min(FactorRow::stride, box.columns.last - c)});
+    contract(box, here);
+    const std::size_t width = width_of_pieces(box.columns.size());
+    for (std::size_t row = here.first; row < here.last; row += GridPiece::kMostRows) {
+      for (std::size_t c = box.columns.first; c < box.columns.last; c += width)
+        result.push_back({b, row, std::min(GridPiece::kMostRows, here.last - row), c,
+                          std::min(width, box.columns.last - c)});
     }
   }
   return result;
 }
 
-void SurrogateGrid::contract_row(const GridPiece& piece, FactorRow& result) const {
-  if (result.box == piece.box && result.row == piece.row) return;
-  const SurrogateBox& box = *boxes_[piece.box].box;
-  const auto terms = static_cast<std::size_t>(box.coefficients[0].rows());
-  const double t = local(box, 1, y_[piece.row]);
-  const auto degree = static_cast<std::size_t>(box.coefficients[0].cols()) - 1;
-  auto& polynomials = result.polynomials;
-  polynomials.assign(degree + 2, 1.0);
-  polynomials[1] = t;
-  for (std::size_t k = 2; k <= degree; ++k)
-    polynomials[k] = 2.0 * t * polynomials[k - 1] - polynomials[k - 2];
-  result.weights.resize(box.coefficients.size() * terms);
-  for (std::size_t f = 0; f < box.coefficients.size(); ++f)
-    contract(box.coefficients[f], polynomials, &result.weights[f * terms]);
-  result.box = piece.box;
-  result.row = piece.row;
-}
-
-void SurrogateGrid::evaluate(const GridPiece& piece, FactorRow& result) const {
-  contract_row(piece, result);
+void SurrogateGrid::evaluate(const GridPiece& piece, double* values, std::size_t stride) const {
   const Box& box = boxes_[piece.box];
   const std::size_t functions = box.box->coefficients.size();
-  result.values.resize(functions * FactorRow::stride);
   detail::evaluate({.basis = box.basis.data() + (piece.first_column - box.columns.first),
-                    .basis_stride = padded(box.columns),
-                    .weights = result.weights.data(),
-                    .functions = functions,
+                    .basis_stride = box.columns.size(),
+                    .weights = box.weights.data() + (piece.first_row - box.weighted.first) * functions,
+                    .weights_stride = box.weighted.size() * functions,
+                    .rows = piece.rows * functions,
+                    .columns = piece.columns,
                     .terms = static_cast<std::size_t>(box.box->coefficients[0].rows()),
-                    .values = result.values.data(),
-                    .stride = FactorRow::stride,
-                    .columns = padded({0, piece.columns})});
+                    .values = values,
+                    .stride = stride});
 }
 
 }  // namespace strutt

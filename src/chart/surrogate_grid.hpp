@@ -3,28 +3,26 @@
 #include <cstddef>
 #include <vector>
 
+#include "strutt/chart/stability_chart.hpp"
 #include "strutt/chart/surrogate.hpp"
 
 namespace strutt {
 
-/// Some cells of one row of a chart that lie in one box.
+/// Some cells of a few rows of a chart that lie in one box.
 struct GridPiece {
+  static constexpr std::size_t kMostRows = 8, kMostColumns = 1920;
+  static constexpr std::size_t kTileColumns = 240;  ///< whole blocks of the tensor kernel
   std::size_t box = 0;
-  std::size_t row = 0;
-  std::size_t first_column = 0;
-  std::size_t columns = 0;
+  std::size_t first_row = 0, rows = 0;
+  std::size_t first_column = 0, columns = 0;
+
+  /// Where row r of the piece begins in a layer of the strip.
+  std::size_t offset(std::size_t r, const ChartStrip& strip) const {
+    return (first_row + r - strip.first_row) * strip.columns + first_column;
+  }
 };
 
-/// Factors at the cells of a piece, function f of cell c at values[f * stride + c]: u1, kappa u2, u1'/kappa,
-/// u2' with the kappa and the exponent of the box, then its quarter turns.
-struct FactorRow {
-  static constexpr std::size_t stride = 512;
-  std::vector<double> values;
-  std::vector<double> weights, polynomials;  // workspace, kept while box and row are the same
-  std::size_t box = static_cast<std::size_t>(-1), row = 0;
-};
-
-/// The boxes of a surrogate on the tensor grid of a chart: per row and box a small matrix product with the
+/// The boxes of a surrogate on the tensor grid of a chart: for some rows of a box a matrix product with the
 /// Chebyshev polynomials at the columns, which are kept while rows of the box are asked for.
 class SurrogateGrid {
  public:
@@ -36,24 +34,27 @@ class SurrogateGrid {
 
   const SurrogateBox& box(const GridPiece& piece) const { return *boxes_[piece.box].box; }
 
-  /// A piece of the rows last asked for. Thread-safe with a workspace per thread.
-  void evaluate(const GridPiece& piece, FactorRow& result) const;
+  /// The functions that the box interpolates, at a piece (or some cells of one) of the rows last asked for:
+  /// function f of cell c of row r, counted in the piece, at values[(r * functions + f) * stride + c].
+  void evaluate(const GridPiece& piece, double* values, std::size_t stride) const;
 
  private:
   struct Range {
     std::size_t first = 0, last = 0;  // last excluded
+    std::size_t size() const { return last - first; }
     bool empty() const { return first >= last; }
   };
   struct Box {
     const SurrogateBox* box;
     Range columns, rows;
-    std::vector<double> basis;  // (highest degree + 1) x padded columns
+    std::vector<double> basis;    // (highest degree + 1) x columns
+    std::vector<double> weights;  // (highest degree + 1) x functions of the rows last asked for
+    Range weighted;               // those rows
   };
 
-  static std::size_t padded(const Range& columns);
   static Range indices_in(const std::vector<double>& coordinates, double low, double high, bool with_high);
   void tabulate(Box& box) const;
-  void contract_row(const GridPiece& piece, FactorRow& result) const;
+  void contract(Box& box, const Range& rows) const;
 
   std::vector<double> x_, y_;  // axis coordinates
   std::vector<Box> boxes_;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 constexpr double kBetweenPoints =
     1.5;  // bounds there against those at twice as many points as the degree needs
-constexpr double kShareOfCut = 0.25;  // of the tolerance
+constexpr double kShareOfCut = 0.6;  // of what the factors leave of the tolerance
 
 /// T_k(t_i), i, k = 0 ... at the n + 1 Chebyshev points.
 Eigen::MatrixXd at_points(int n, Eigen::Index terms) {
@@ -53,9 +53,7 @@ SurrogateBox with_trace(const SurrogateBox& box, double tolerance) {
   std::vector<Eigen::ArrayXXd> f;
   for (const auto& factor : c) f.emplace_back((in_x * factor * in_y.transpose()).array());
   const Eigen::MatrixXd values = (2.0 * square * (f[0] * f[3] + f[1] * f[2])).matrix();
-  SurrogateBox result = box;
   Eigen::MatrixXd trace = chebyshev::transform(nx) * values * chebyshev::transform(ny).transpose();
-  const double dropped = cut(trace, kShareOfCut * tolerance);
   // rounding of transform and sum, and of the place in the box through the slope
   double rounding = 8.0 * kUnit * std::sqrt(nx + ny) * values.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < trace.rows(); ++i) {
@@ -67,8 +65,13 @@ SurrogateBox with_trace(const SurrogateBox& box, double tolerance) {
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 3}, {1, 2}})
     of_factors += f[a].abs() * box.error[b] + f[b].abs() * box.error[a] + box.error[a] * box.error[b];
   const Eigen::ArrayXXd size = (0.5 * values.cwiseAbs()).array().max(1.0);
-  const double error = kBetweenPoints * ((2.0 * square * of_factors + rounding + dropped) / size).maxCoeff();
-  if (!(error <= tolerance)) return box;
+  const auto error_with = [&](double dropped) {
+    return kBetweenPoints * ((2.0 * square * of_factors + rounding + dropped) / size).maxCoeff();
+  };
+  const double left = tolerance - error_with(0.0);
+  if (!(left >= 0.0)) return box;
+  const double error = error_with(cut(trace, kShareOfCut * left));
+  SurrogateBox result = box;
   result.coefficients = {trace};
   result.error = {error};
   result.exponent = 0;

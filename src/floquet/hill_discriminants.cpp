@@ -52,7 +52,7 @@ HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance) 
   const auto basis = cosines(orders);
   const int highest = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
   coefficient_error_ = HillSeries::evaluation_error(highest);
-  const auto [first, lowest] = tolerance_ladder(Method::propagator, tolerance);
+  const auto [first, lowest] = series_ladder(tolerance);
   for (double local = first;; local = std::max(kLadderStep * local, lowest)) {
     families_.emplace_back(basis, 0.0, pi, local);
     if (local <= lowest) break;

@@ -12,19 +12,20 @@ namespace {
 constexpr std::array kMethods{Method::automatic, Method::propagator, Method::exact, Method::arkode,
                               Method::cvode};
 
-/// What comes closest: `by_series`, which did not reach the tolerance, or SUNDIALS.
-HillMonodromy better_monodromy(PropagatorPool& pool, const HillEquation& equation, HillMonodromy by_series,
-                               const MonodromyOptions& options) {
-  HillMonodromy other = hill_monodromy(pool, equation, Method::arkode, options);
-  HillMonodromy& better = other.error < by_series.error ? other : by_series;
-  HillMonodromy& worse = &better == &other ? by_series : other;
+/// The one that comes closest, at the cost of both.
+template <typename Matrix>
+BasicMonodromy<Matrix> better_of(BasicMonodromy<Matrix> a, BasicMonodromy<Matrix> b) {
+  auto& better = b.error < a.error ? b : a;
+  const auto& worse = &better == &b ? a : b;
   better.cost += worse.cost;
   better.estimate_cost += worse.estimate_cost;
-  return better;
+  return std::move(better);
 }
 
-bool ends_the_search(Outcome outcome) {
-  return outcome == Outcome::converged || outcome == Outcome::non_finite || outcome == Outcome::cancelled;
+/// Is SUNDIALS to be asked, after the propagator ended like this? Where only rounding keeps the propagator from its
+/// tolerance, an adaptive method does no better at many times the cost.
+bool needs_sundials(Outcome outcome, Method asked) {
+  return asked == Method::automatic && outcome == Outcome::step_limit;
 }
 
 [[noreturn]] void refuse_exact() {
@@ -51,12 +52,8 @@ Method method_for(const HillEquation& equation, Method asked) {
 }
 
 Method method_for(const LinearPeriodicSystem&, Method asked) {
-  if (asked == Method::automatic) return Method::arkode;
+  if (asked == Method::automatic) return Method::propagator;
   if (asked == Method::exact) refuse_exact();
-  if (asked == Method::propagator) {
-    throw InvalidInput(
-        "method propagator needs a system of one degree of freedom; use auto, arkode or cvode");
-  }
   MonodromyOptions{.method = asked}.validate();
   return asked;
 }
@@ -90,9 +87,9 @@ std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation
   }
   auto found = series_monodromies(workspace_->series, smooth, options);
   for (std::size_t j = 0; j < found.size(); ++j) {
-    const bool done = options.method == Method::propagator || ends_the_search(found[j].outcome);
-    results[places[j]] =
-        done ? std::move(found[j]) : better_monodromy(*workspace_, smooth[j], std::move(found[j]), options);
+    auto& result = results[places[j]] = std::move(found[j]);
+    if (!needs_sundials(result.outcome, options.method)) continue;
+    result = better_of(std::move(result), hill_monodromy(*workspace_, smooth[j], Method::arkode, options));
   }
   return results;
 }
@@ -100,7 +97,10 @@ std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation
 Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const MonodromyOptions& options) {
   system.validate();
   options.validate();
-  return system_monodromy(*workspace_, system, method_for(system, options.method), options);
+  const Method method = method_for(system, options.method);
+  auto result = system_monodromy(*workspace_, system, method, options);
+  if (method != Method::propagator || !needs_sundials(result.outcome, options.method)) return result;
+  return better_of(std::move(result), system_monodromy(*workspace_, system, Method::arkode, options));
 }
 
 }  // namespace strutt

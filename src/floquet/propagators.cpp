@@ -8,9 +8,11 @@ constexpr double kLowestLocalTolerance = 1e-14;
 constexpr double kHighestLocalTolerance = 1e-4;
 constexpr double kLocalShare = 0.01;  // local tolerance to global tolerance
 
-// Of a whole piece, by power series.
+// Of a whole piece or period, by fixed steps.
 constexpr double kLowestSeriesTolerance = 1e-16;
 constexpr double kSeriesShare = 0.5;
+constexpr double kLowestTaylorTolerance = 1e-15;
+constexpr double kTaylorShare = 0.01;  // less, for the bounds of the steps add up
 
 }  // namespace
 
@@ -23,10 +25,15 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
           .cancel = options.cancel};
 }
 
-ToleranceLadder tolerance_ladder(Method method, double tolerance) {
-  if (method == Method::propagator) return {kSeriesShare * tolerance, kLowestSeriesTolerance};
+ToleranceLadder sundials_ladder(double tolerance) {
   return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
           kLowestLocalTolerance};
+}
+
+ToleranceLadder series_ladder(double tolerance) { return {kSeriesShare * tolerance, kLowestSeriesTolerance}; }
+
+ToleranceLadder taylor_ladder(double tolerance) {
+  return {kTaylorShare * tolerance, kLowestTaylorTolerance};
 }
 
 }  // namespace strutt

@@ -26,7 +26,7 @@ struct PropagatorPool {
 
 /// By Method::exact, arkode or cvode.
 HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation, Method method,
-                         const MonodromyOptions& options);
+                             const MonodromyOptions& options);
 /// By Method::propagator, all at once.
 std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
                                                  std::span<const HillEquation> equations,
@@ -38,7 +38,8 @@ Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& sys
 template <typename Matrix>
 struct Propagators {
   std::vector<BasicBoundedMatrix<Matrix>> factors;  // with the bounds of their rounding
-  std::vector<BasicBoundedMatrix<Matrix>> checks;  // the same from the second runs, without bounds; empty where no second runs are needed
+  std::vector<BasicBoundedMatrix<Matrix>>
+      checks;  // the same from the second runs, without bounds; empty where no second runs are needed
   double truncation_share = kTruncationSafety;  // see add_truncation
   Outcome outcome = Outcome::converged;
   IntegrationCost cost, estimate_cost;
@@ -47,8 +48,9 @@ struct Propagators {
     if (outcome == Outcome::converged) outcome = step.outcome;
     cost += step.cost;
     estimate_cost += step.estimate_cost;
-    append({{std::move(step.matrix.value.mantissa), step.matrix.value.exponent}, std::move(step.matrix.error)},
-           {std::move(step.check.mantissa), step.check.exponent});
+    append(
+        {{std::move(step.matrix.value.mantissa), step.matrix.value.exponent}, std::move(step.matrix.error)},
+        {std::move(step.check.mantissa), step.check.exponent});
   }
 
   void append(BasicBoundedMatrix<Matrix>&& factor, BasicScaledMatrix<Matrix>&& check) {
@@ -58,7 +60,8 @@ struct Propagators {
 };
 
 /// `highest_order`: of the harmonics of the equation.
-PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance, int highest_order);
+PropagatorOptions propagator_options(const MonodromyOptions& options, double local_tolerance,
+                                     int highest_order);
 
 /// The result of putting the factors together, with the truncation that the second runs, put together the
 /// same way, show.
@@ -81,7 +84,9 @@ BasicMonodromy<Matrix> combined(const Propagators<Matrix>& propagators, const Pu
 struct ToleranceLadder {
   double first, lowest;
 };
-ToleranceLadder tolerance_ladder(Method method, double tolerance);
+ToleranceLadder sundials_ladder(double tolerance);   // of a step
+ToleranceLadder series_ladder(double tolerance);    // of a piece
+ToleranceLadder taylor_ladder(double tolerance);     // of the period
 inline constexpr double kLadderStep = 0.01;
 
 /// How `result` ended, now that nothing tighter is tried.
@@ -97,8 +102,7 @@ void judge(BasicMonodromy<Matrix>& result, double tolerance) {
 
 /// Runs attempt(local_tolerance) with tighter and tighter tolerances until the error is small enough.
 template <typename Attempt>
-auto tighten(Method method, double tolerance, const Attempt& attempt) {
-  const ToleranceLadder ladder = tolerance_ladder(method, tolerance);
+auto tighten(const ToleranceLadder& ladder, double tolerance, const Attempt& attempt) {
   double local = ladder.first;
   auto result = attempt(local);
   while (result.outcome == Outcome::converged && result.error > tolerance && local > ladder.lowest) {

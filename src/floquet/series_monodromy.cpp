@@ -49,7 +49,7 @@ std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
   std::vector<HillMonodromy> results(equations.size());
   std::vector<std::size_t> wanted(equations.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
-  const ToleranceLadder ladder = tolerance_ladder(Method::propagator, options.tolerance);
+  const ToleranceLadder ladder = series_ladder(options.tolerance);
   double local = ladder.first;
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   while (!wanted.empty() && !cancelled()) {

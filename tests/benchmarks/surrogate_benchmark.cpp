@@ -63,12 +63,13 @@ void eigen_product(benchmark::State& state) {
 /// The same by the kernel of the surrogate, with the widest instruction set.
 void kernel_product(benchmark::State& state) {
   const auto n = static_cast<std::size_t>(state.range(0));
-  constexpr std::size_t rank = 20;
-  const std::vector<double> basis(rank * n, 0.5), weights(rank, 0.25);
-  std::vector<double> values(n);
+  constexpr std::size_t rank = 20, rows = 16;
+  const std::vector<double> basis(rank * n, 0.5), weights(rank * rows, 0.25);
+  std::vector<double> values(rows * n);
   for (auto _ : state) {
-    for (std::size_t row = 0; row < n; ++row) {
-      strutt::detail::evaluate({basis.data(), n, weights.data(), 1, rank, values.data(), n, n});
+    for (std::size_t row = 0; row < n; row += rows) {
+      strutt::detail::evaluate(
+          {basis.data(), n, weights.data(), rows, rows, n, rank, values.data(), n});
       benchmark::DoNotOptimize(values.data());
     }
   }

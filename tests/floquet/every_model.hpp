@@ -11,9 +11,8 @@
 namespace strutt::test {
 
 inline std::vector<Method> methods(const LinearModel& model) {
-  std::vector<Method> result{Method::arkode, Method::cvode};
+  std::vector<Method> result{Method::propagator, Method::arkode, Method::cvode};
   const auto* equation = std::get_if<HillEquation>(&model);
-  if (equation != nullptr) result.push_back(Method::propagator);
   if (equation != nullptr && equation->coefficient.is_piecewise_constant()) result.push_back(Method::exact);
   return result;
 }

@@ -155,6 +155,8 @@ TEST_CASE("Constant coefficients have the matrix exponential", "[floquet][law][k
     system.mass = 3.0 * MatrixXd::Identity(2, 2) + matrix();
     system.stiffness.mean = matrix() * (i % 3 == 0 ? 1e-9 : 4.0);
     if (i % 2 == 0) system.damping.mean = matrix();
-    for (const auto method : {Method::arkode, Method::cvode}) check(system, computed(system, method));
+    for (const auto method : {Method::propagator, Method::arkode, Method::cvode}) {
+      check(system, computed(system, method));
+    }
   }
 }

@@ -66,6 +66,9 @@ TEST_CASE("The error bound is above the true error and sharp on the reference ta
       {"pendulum", Method::propagator, 1e-5}, {"pendulum", Method::propagator, 1e-9},
       {"pendulum", Method::automatic, 1e-12},
       {"linear4", Method::automatic, 1e-6}, {"linear4", Method::automatic, 1e-9}, {"linear4", Method::cvode, 1e-6},
+      {"linear4", Method::arkode, 1e-6}, {"linear4", Method::arkode, 1e-9},
+      {"linear4", Method::propagator, 1e-2}, {"linear4", Method::propagator, 1e-4},
+      {"linear4", Method::propagator, 1e-7}, {"linear4", Method::propagator, 1e-12},
   }));
   const auto tally = check(c);
   CAPTURE(c.table, to_string(c.method), c.tolerance);

@@ -55,7 +55,7 @@ struct ChartPlan {
 double memory_budget();
 
 /// Forecast, for orientation: the time that one point takes one thread by this method at tolerance 1e-9, in seconds.
-double expected_seconds_per_point(Method method);
+double expected_seconds_per_point(Method method, const LinearModel& model);
 
 /// Checks the request against the scene (parameters exist, ends are valid values, sizes do not overflow) and estimates it.
 /// Throws InvalidInput, and MemoryBudgetExceeded when result_bytes or working_bytes > budget_bytes unless `force`.

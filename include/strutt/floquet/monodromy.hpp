@@ -20,7 +20,7 @@ namespace strutt {
 /// What is wanted of a monodromy matrix.
 struct MonodromyOptions {
   double tolerance = 1e-9;             ///< largest `error` wanted, 1e-13 <= tolerance <= 1e-2
-  Method method = Method::automatic;   ///< automatic, exact (piecewise-constant Hill equations), propagator (Hill equations), arkode, cvode
+  Method method = Method::automatic;   ///< automatic, exact (piecewise-constant Hill equations), propagator, arkode, cvode
   bool estimate_error = true;          ///< false: no second run; `error` then holds the rounding part only
   double max_seconds = std::numeric_limits<double>::infinity();  ///< per integration
   const std::atomic<bool>* cancel = nullptr;
@@ -62,8 +62,8 @@ using HillMonodromy = BasicMonodromy<Eigen::Matrix2d>;  ///< of a Hill equation
 Monodromy widened(const HillMonodromy& monodromy);
 
 /// The method that a computation begins with when `asked` for. Method::automatic: `exact` for a piecewise-constant
-/// coefficient, `propagator` for other Hill equations, `arkode` for systems. Throws InvalidInput if the one asked for
-/// does not fit: `exact` needs a piecewise-constant Hill equation, `propagator` a Hill equation.
+/// coefficient, `propagator` for everything else. Throws InvalidInput if the one asked for does not fit: `exact` needs a
+/// piecewise-constant Hill equation.
 Method method_for(const HillEquation& equation, Method asked);
 Method method_for(const LinearPeriodicSystem& system, Method asked);
 
@@ -76,10 +76,10 @@ class MonodromyEngine {
   MonodromyEngine(MonodromyEngine&&) noexcept;
   MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
 
-  /// Method::automatic: exact for a piecewise-constant coefficient, for other Hill equations the propagator (power
-  /// series with fixed steps, integrate/hill_series.hpp) with arkode behind it where the tolerance is not reached; else
-  /// arkode. The local tolerance of SUNDIALS starts at max(tolerance/100, 1e-14). Both are tightened while the error bound
-  /// is above the tolerance.
+  /// Method::automatic: exact for a piecewise-constant coefficient, else the propagator, and arkode where it would
+  /// take too many steps. The propagator is a power series about the middle of each of a fixed number of steps, of
+  /// Hill equations by integrate/hill_family.hpp, of systems by integrate/taylor_propagator.hpp. The local tolerance of
+  /// SUNDIALS starts at max(tolerance/100, 1e-14). All are tightened while the error bound is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
   HillMonodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});
   /// Many at once, the propagator of smooth equations several to a processor register: the same bits as one by

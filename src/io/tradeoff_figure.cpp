@@ -1,0 +1,39 @@
+#include "strutt/io/tradeoff_figure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gnuplot.hpp"
+#include "io/text.hpp"
+#include "io/tradeoff_script.hpp"
+#include "strutt/base/error.hpp"
+#include "strutt/io/output_file.hpp"
+
+namespace strutt {
+
+struct TradeoffFigure::State {
+  explicit State(const std::filesystem::path& path) : target(path), format(figure_format(path)), file(path) {}
+
+  std::filesystem::path target;
+  FigureFormat format;
+  OutputFile file;
+};
+
+TradeoffFigure::TradeoffFigure(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
+
+TradeoffFigure::~TradeoffFigure() = default;
+
+void TradeoffFigure::draw(const Tradeoff& tradeoff, const std::string& title) {
+  const bool drawable = std::any_of(tradeoff.rows.begin(), tradeoff.rows.end(), [](const TradeoffRow& row) {
+    return std::isfinite(row.true_error) && row.points_per_second > 0.0;
+  });
+  if (!drawable) throw InvalidInput("a figure of speed and accuracy needs a row with an error");
+  const GnuplotRun gnuplot;
+  gnuplot.write(kTradeoffFile, tradeoff_data(tradeoff));
+  gnuplot.write("tradeoff.gp", tradeoff_script(tradeoff, title, state_->format));
+  gnuplot.run("tradeoff.gp", state_->target);
+  state_->file.write(read_file(gnuplot / kPictureFile, kLargestPicture));
+  state_->file.commit();
+}
+
+}  // namespace strutt
