@@ -63,8 +63,14 @@ Lines lines_of(const TonguesArguments& arguments, const Scene& scene, const Tong
   return lines;
 }
 
+/// Columns that are there only if asked for, or needed.
+struct Extras {
+  bool growth = false;
+  bool crossing = false;
+};
+
 std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const Lines& lines,
-                               bool crossings) {
+                               const Extras& extras) {
   const auto unit = [&](const std::string& path) {
     const std::string text = parameter_info(scene, path).unit;
     return text.empty() ? "1" : text;
@@ -77,17 +83,20 @@ std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const
                                  {"error", "1"},
                                  {"method", ""},
                                  {"outcome", ""}});
-  if (crossings) columns.push_back({"crossing", "1"});
+  if (extras.growth)
+    columns.insert(columns.end(), {{"growth", "1"}, {"growth_position", unit(line.parameter)}});
+  if (extras.crossing) columns.push_back({"crossing", "1"});
   return columns;
 }
 
-std::vector<Cell> cells_of(const std::vector<double>& at, const TongueEdge& edge, bool crossings) {
+std::vector<Cell> cells_of(const std::vector<double>& at, const TongueEdge& edge, const Extras& extras) {
   const auto number = [](double x) { return std::isnan(x) ? Cell() : Cell(x); };
   std::vector<Cell> row{static_cast<double>(edge.order), std::string(edge.upper ? "upper" : "lower")};
   row.insert(row.end(), at.begin(), at.end());
   row.insert(row.end(), {edge.position, number(edge.width), number(edge.width_relative_error), edge.error,
                          std::string(to_string(Method::fourier)), std::string(to_string(edge.outcome))});
-  if (crossings) row.emplace_back(static_cast<double>(edge.crossing));
+  if (extras.growth) row.insert(row.end(), {number(edge.growth), number(edge.growth_position)});
+  if (extras.crossing) row.emplace_back(static_cast<double>(edge.crossing));
   return row;
 }
 
@@ -103,7 +112,7 @@ ExitCode run(const TonguesArguments& arguments) {
   const ParallelOptions parallel{.threads = threads_of(arguments), .cancel = &cancel_flag()};
   require_one_standard_input(arguments, "--at", arguments.at);
   const SceneFile scene = load_scene(arguments);
-  TongueOptions options{.cancel = &cancel_flag()};
+  TongueOptions options{.growth = arguments.growth, .cancel = &cancel_flag()};
   options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
   if (arguments.count)
     options.count = static_cast<int>(count_of("--count", *arguments.count, 1, kLargestTongue + 1));
@@ -122,11 +131,12 @@ ExitCode run(const TonguesArguments& arguments) {
   parallel_for(edges.size(), parallel,
                [&](std::size_t i, int) { edges[i] = tongues(lines.scenes[i], line, options); });
   throw_if_interrupted();
-  const bool crossings = any_edge(edges, [](const TongueEdge& e) { return e.crossing > 0; });
-  RowWriter writer(row_path(arguments), arguments.json, columns_of(scene.scene, line, lines, crossings),
+  const bool crossing = any_edge(edges, [](const TongueEdge& e) { return e.crossing > 0; });
+  const Extras extras{.growth = arguments.growth, .crossing = crossing};
+  RowWriter writer(row_path(arguments), arguments.json, columns_of(scene.scene, line, lines, extras),
                    provenance_of(arguments, scene, Method::fourier, options.tolerance));
   for (std::size_t i = 0; i < edges.size(); ++i)
-    for (const TongueEdge& edge : edges[i]) writer.write(cells_of(lines.rows[i], edge, crossings));
+    for (const TongueEdge& edge : edges[i]) writer.write(cells_of(lines.rows[i], edge, extras));
   writer.commit();
   const bool missed = any_edge(edges, [](const TongueEdge& e) { return e.outcome != Outcome::converged; });
   return missed ? ExitCode::unresolved : ExitCode::done;

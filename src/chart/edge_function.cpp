@@ -7,6 +7,7 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
+#include "strutt/floquet/stability.hpp"
 
 namespace strutt {
 namespace {
@@ -70,6 +71,12 @@ LinePoint LineEquation::at(double parameter) {
   const PeriodicFunction v = w.plus(-w.mean());
   const double relative = equation->coefficient_error;
   return {parameter, w.mean(), v, relative * (std::abs(w.mean()) + sum_of_amplitudes(v)), relative};
+}
+
+double LineEquation::growth(double parameter) {
+  *value_ = parameter;
+  const StabilityParts parts{.winding = false, .matrix = false};
+  return analyse(engine_, linear_model(scene_), {.tolerance = 1e-13}, parts).growth;
 }
 
 double EdgeFunction::Value::below(bool upper) const {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "strutt/chart/tongues.hpp"
+#include "strutt/floquet/monodromy.hpp"
 
 namespace strutt {
 
@@ -27,8 +28,10 @@ class LineEquation {
   LineEquation(const LineEquation&) = delete;
 
   LinePoint at(double parameter);
+  double growth(double parameter);  ///< by the monodromy matrix
 
  private:
+  MonodromyEngine engine_;
   Scene scene_;
   double* value_;
 };

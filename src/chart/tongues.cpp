@@ -1,12 +1,14 @@
 #include "strutt/chart/tongues.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "chart/edge_function.hpp"
 #include "chart/edge_zeros.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/floquet/stability.hpp"
 
 namespace strutt {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnit = 0x1p-53;
 constexpr double kWidthPromise = 1e-10;
+constexpr double kNarrow = 1e-7;  // width in the mean below which its first power gives the growth
 
 /// A stretch of the line inside a tongue; an end that is not on the line is missing.
 struct Stretch {
@@ -59,7 +62,7 @@ std::vector<Stretch> stretches(const std::vector<EdgeZero>& zeros, int order) {
 class TongueOnLine {
  public:
   TongueOnLine(LineEquation& equation, int order, const TongueLine& line, const TongueOptions& options)
-      : function_(equation, order), line_(line), options_(options) {}
+      : line_equation_(equation), function_(equation, order), line_(line), options_(options) {}
 
   std::vector<TongueEdge> edges() {
     std::vector<EdgeZero> zeros = edge_zeros(function_, true, line_, options_.cancel);
@@ -109,6 +112,7 @@ class TongueOnLine {
       width = width_of(*stretch.begin, *stretch.end, edges[first], edges[first + 1]);
       const bool good = width.relative_error <= kWidthPromise || width.relative_error == 1.0;
       if (!good) edges[first].outcome = edges[first + 1].outcome = Outcome::tolerance_not_reached;
+      if (options_.growth) add_growth(*stretch.end, edges[first], edges[first + 1]);
       place(width, edges[first], edges[first + 1]);
     }
     for (std::size_t i = first; i < edges.size(); ++i) {
@@ -143,6 +147,24 @@ class TongueOnLine {
     return width;
   }
 
+  /// The discriminant has one extremum between the edges of a tongue.
+  void add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& high) {
+    const auto& value = function_.at(end.position);
+    const double in_mean = value.edges.upper.value - value.edges.lower->value;
+    if (in_mean < kNarrow) {
+      low.growth = narrow_tongue_growth(value.point.variation, value.edges,
+                                        tongue_width(value.point.variation, value.edges));
+      low.growth_position = std::midpoint(low.position, high.position);
+    } else {
+      const auto [position, growth] = boost::math::tools::brent_find_minima(
+          [&](double p) { return -line_equation_.growth(p); }, low.position, high.position, 30);
+      low.growth = -growth;
+      low.growth_position = position;
+    }
+    high.growth = low.growth;
+    high.growth_position = low.growth_position;
+  }
+
   /// The edges of a narrow tongue, where they are closer than their errors: about their middle.
   static void place(const TongueWidth& width, TongueEdge& low, TongueEdge& high) {
     if (high.position - low.position > 0.0 && width.value > 1e-9 * std::abs(low.position)) return;
@@ -151,6 +173,7 @@ class TongueOnLine {
     high.position = middle + 0.5 * width.value;
   }
 
+  LineEquation& line_equation_;
   EdgeFunction function_;
   const TongueLine& line_;
   const TongueOptions& options_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "floquet/fourier_excitation.hpp"
@@ -132,6 +133,18 @@ void search(const FourierExcitation& v, const TongueEdges& edges, Enclosure& enc
     WidthSearch<Real, WideComplex<Real>>(matrix, edges).run(enclosure);
 }
 
+/// |dh/dx| / |dh/dnu| in the middle of a tongue.
+template <typename Real, typename Value>
+double slope_ratio(const HillMatrix& matrix, const TongueEdges& edges) {
+  const Ball<Real> middle{Real(std::midpoint(edges.lower->value, edges.upper.value)), 0};
+  const auto slope = [&](Direction direction) {
+    return ResonantElimination<Real, Value>(matrix, edges.order, middle, direction)
+        .run()
+        .distance.slope.size();
+  };
+  return static_cast<double>(slope(Direction::mean) / slope(Direction::exponent));
+}
+
 /// The largest common divisor of the orders: the true period of V is 2 pi over it.
 int common_order(const FourierExcitation& v) {
   int divisor = 0;
@@ -162,6 +175,18 @@ TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges&
   if (v.change > 0.0)
     width.relative_error += (edges.order + 1) * v.change / v.matrix(HillBasis::bloch, 0.0).norm();
   return width;
+}
+
+double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
+                            const TongueWidth& width) {
+  require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
+  if (width.value == 0.0 || width.relative_error >= 1.0) return 0.0;
+  const FourierExcitation v(coefficient);
+  const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
+  using Real = Wide<34>;
+  const double ratio =
+      v.even ? slope_ratio<Real, Real>(matrix, edges) : slope_ratio<Real, WideComplex<Real>>(matrix, edges);
+  return std::numbers::pi * ratio * width.value;
 }
 
 }  // namespace strutt

@@ -80,6 +80,16 @@ TEST_CASE("tongues numbers the crossings where there are several", "[apps][tongu
   CHECK(rows[2].back() == "1");
 }
 
+TEST_CASE("tongues adds growth if asked for", "[apps][tongues]") {
+  const auto rows = csv_rows(Command().run("mathieu.delta=0.1:0.5", {"--growth"}).out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0][8] == "growth");
+  CHECK(rows[0][9] == "growth_position");
+  CHECK(number(rows[1][8]) == Approx(3.14159e-2).epsilon(1e-4));
+  CHECK(number(rows[1][9]) == Approx(0.25).epsilon(1e-3));
+  CHECK(rows[2][8] == rows[1][8]);
+}
+
 TEST_CASE("tongues writes JSON, with units in the scene's parameters", "[apps][tongues]") {
   const Command command("[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n");
   const auto result = command.run("support.frequency=1 Hz:2 Hz", {"--json"});

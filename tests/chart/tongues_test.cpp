@@ -107,6 +107,28 @@ TEST_CASE("the verdict changes at each edge and nowhere else", "[chart][tongues]
   check(pendulum_scene(0.5, 20.0, Equilibrium::inverted), {"support.amplitude", 0.2, 8.0});
 }
 
+TEST_CASE("the largest growth of a tongue is found, narrow or wide", "[chart][tongues]") {
+  // to lowest order pi w/n: at epsilon = 1e-4 and, n = 1, w = epsilon, up to terms of order epsilon^2
+  const auto narrow = tongues(mathieu_scene(1.0, 1e-4), {"mathieu.delta", 0.1, 5.0}, {.growth = true});
+  REQUIRE(narrow.size() == 8);
+  for (const TongueEdge& edge : narrow) {
+    CHECK(edge.growth == Approx(3.141592653589793 * edge.width / edge.order).epsilon(2e-6).margin(0.0));
+    CHECK(edge.growth_position == Approx(0.25 * edge.order * edge.order).epsilon(1e-6));
+  }
+  const Scene scene = mathieu_scene(1.0, 1.5);
+  MonodromyEngine engine;
+  for (const TongueEdge& edge : tongues(scene, {"mathieu.delta", -3.0, 3.0}, {.growth = true})) {
+    if (edge.order == 0 || edge.upper) continue;
+    double most = 0.0;
+    for (int i = 1; i < 1000; ++i) {
+      const double delta = edge.position + edge.width * i / 1000.0;
+      most = std::max(most, analyse(engine, mathieu_delta_epsilon(delta, 1.5)).growth);
+    }
+    CHECK(edge.growth >= most * (1.0 - 1e-9));
+    CHECK(edge.growth <= most * (1.0 + 1e-5));
+  }
+}
+
 TEST_CASE("a line may meet a tongue more than once", "[chart][tongues]") {
   const auto edges = tongues(mathieu_scene(0.35, 0.0), {"mathieu.epsilon", -1.0, 1.0}, {.count = 2});
   std::vector<TongueEdge> first;
@@ -146,7 +168,7 @@ TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][
   CHECK(edges[1].outcome == Outcome::converged);
 }
 
-TEST_CASE("count takes the first tongues; all means all that the line can meet", "[chart][tongues]") {
+TEST_CASE("count takes the first tongues, and all are those that the line can meet", "[chart][tongues]") {
   const Scene scene = mathieu_scene(1.0, 0.01);
   const TongueLine line{"mathieu.delta", -1.0, 30.0};
   CHECK(tongue_count(scene, line) == 11);  // tongue 10 is near 25, tongue 11 near 30.25

@@ -30,12 +30,16 @@ struct TongueEdge {
   /// 0.
   double width = std::numeric_limits<double>::quiet_NaN();
   double width_relative_error = std::numeric_limits<double>::quiet_NaN();
+  /// The largest growth between both edges of a pair, ln of the spectral radius per period, and where; NaN unless asked for.
+  double growth = std::numeric_limits<double>::quiet_NaN();
+  double growth_position = std::numeric_limits<double>::quiet_NaN();
   Outcome outcome = Outcome::converged;
 };
 
 struct TongueOptions {
   double tolerance = 1e-12;  ///< largest `error` wanted, 1e-13 <= tolerance <= 1e-2
   int count = 0;             ///< tongues n = 0 ... count - 1; 0: all that the line can meet
+  bool growth = false;       ///< find the largest growth of each pair, to a relative accuracy of about 1e-6
   const std::atomic<bool>* cancel = nullptr;
 };
 
