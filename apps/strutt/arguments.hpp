@@ -52,6 +52,13 @@ struct CharacteristicArguments : CommonArguments {
   std::string q;
 };
 
+struct TonguesArguments : CommonArguments {
+  std::string along;
+  std::optional<std::string> at;
+  std::optional<std::string> count;
+  bool growth = false;
+};
+
 struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not given
   std::optional<std::string> amplitude;
   std::optional<std::string> from_top;
@@ -85,6 +92,6 @@ struct Information {
 using Arguments =
     std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
                  PortraitArguments, NormalFormArguments, CharacteristicArguments,
-                 TradeoffArguments>;
+                 TonguesArguments, TradeoffArguments>;
 
 }  // namespace strutt::app

@@ -164,6 +164,23 @@ CLI::App* add_characteristic(CLI::App& app, CharacteristicArguments& arguments) 
   return command;
 }
 
+CLI::App* add_tongues(CLI::App& app, TonguesArguments& arguments) {
+  auto* command = app.add_subcommand("tongues", "all tongues on a line: edges, index, width");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "largest error of a position relative to max(1, |position|)", "fourier",
+             "1e-13 to 1e-2 (default 1e-12)");
+  command->add_option("--along", arguments.along, "the parameter that changes, and its range")
+      ->required()
+      ->type_name("P=FROM:TO");
+  command->add_option("--at", arguments.at, "CSV file whose header names further parameters: a line per row")
+      ->type_name("IN.csv");
+  command->add_option("--count", arguments.count, "tongues n = 0 ... N - 1 (default: all on the line)")->type_name("N");
+  command->add_flag("--growth", arguments.growth,
+                    "add the largest growth per period between both edges, and where");
+  command->footer(std::string(kTonguesExample) + kExitCodes);
+  return command;
+}
+
 CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   auto* command = app.add_subcommand("period", "period of the free pendulum at an amplitude");
   command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
@@ -254,6 +271,7 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   NormalFormArguments normal_form;
   TradeoffArguments tradeoff;
   CharacteristicArguments characteristic;
+  TonguesArguments tongues;
   const std::vector<Command> commands{command(add_chart, app, chart),
                                       command(add_stability, app, stability),
                                       command(add_motion, app, motion),
@@ -261,6 +279,7 @@ Arguments parse_command_line(int argc, const char* const* argv) {
                                       command(add_portrait, app, portrait),
                                       command(add_normal_form, app, normal_form),
                                       command(add_characteristic, app, characteristic),
+                                      command(add_tongues, app, tongues),
                                       command(add_tradeoff, app, tradeoff)};
 
   const auto chosen = [&]() -> const CLI::App* {

@@ -38,6 +38,12 @@ Example:
   printf 'from_top\n1e-300\n0.1\n' | strutt period --points -
 )";
 
+inline constexpr const char* kTonguesExample = R"(
+Example:
+  printf '[mathieu]\nepsilon = 0.01\n' > scene.toml
+  strutt tongues scene.toml --along mathieu.delta=-1:40
+)";
+
 inline constexpr const char* kCharacteristicExample = R"(
 Example:
   strutt characteristic --order 0:10 --q 5,-5

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "floquet/fourier_excitation.hpp"
 #include "floquet/hill_matrix.hpp"
 #include "strutt/base/error.hpp"
 
@@ -10,39 +11,6 @@ namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-constexpr double kLargestNorm = 1e6;
-
-/// V as complex harmonics, about an even centre if there is one, and what that may have changed.
-struct Excitation {
-  bool even = false;
-  std::vector<std::complex<double>> harmonics{0.0};
-  double change = 0.0;  ///< a bound of the norm of the difference from what was given
-
-  explicit Excitation(const PeriodicFunction& coefficient) {
-    require_harmonics(coefficient);
-    const auto centre = coefficient.even_centre();
-    even = centre.has_value();
-    const PeriodicFunction seen = even ? coefficient.centred(*centre) : coefficient;
-    harmonics.resize(static_cast<std::size_t>(seen.highest_order()) + 1, 0.0);
-    for (const Harmonic& h : seen.harmonics()) {
-      harmonics[static_cast<std::size_t>(h.order)] = 0.5 * std::complex<double>(h.cosine, -h.sine);
-      // turned by order x centre, which rounds; the sines that are left are dropped
-      if (even && *centre != 0.0)
-        change += std::abs(h.cosine) * (coefficient.asymmetry(*centre) + (8.0 + 8.0 * h.order) * kUnit);
-    }
-    const double norm = matrix(HillBasis::bloch, 0.0).norm();
-    require(norm <= kLargestNorm * (1.0 + 1e-9), "sum of the amplitudes of the harmonics", norm, "0 to 1e6");
-  }
-
-  HillMatrix matrix(HillBasis basis, double exponent) const { return {basis, exponent, harmonics}; }
-
- private:
-  static void require_harmonics(const PeriodicFunction& coefficient) {
-    if (coefficient.harmonics().empty() && !coefficient.is_constant())
-      throw InvalidInput("coefficient", "a square wave or an antiderivative of one",
-                         "finitely many harmonics");
-  }
-};
 
 /// Eigenvalue `index` of a matrix, whose square of the frequency is known: |eigenvalue - square| <= norm of
 /// V.
@@ -100,7 +68,7 @@ CharacteristicValue eigenvalue(const HillMatrix& matrix, int index, double squar
 double half_square(int order) { return 0.25 * order * order; }
 
 /// Even V: cosines and sines are apart, and each edge of tongue n has the index n/2 in its own matrix.
-TongueEdges even_tongue(const Excitation& v, int order) {
+TongueEdges even_tongue(const FourierExcitation& v, int order) {
   const double exponent = order % 2 == 0 ? 0.0 : 0.5, square = half_square(order);
   const auto cosine = eigenvalue(v.matrix(HillBasis::cosine, exponent), order / 2, square, v.change);
   if (order == 0) return {order, std::nullopt, cosine};
@@ -109,7 +77,7 @@ TongueEdges even_tongue(const Excitation& v, int order) {
   return {order, sine, cosine};
 }
 
-TongueEdges tongue(const Excitation& v, int order) {
+TongueEdges tongue(const FourierExcitation& v, int order) {
   const HillMatrix matrix = v.matrix(HillBasis::bloch, order % 2 == 0 ? 0.0 : 0.5);
   const double square = half_square(order);
   const auto upper = eigenvalue(matrix, order, square, v.change);
@@ -122,7 +90,7 @@ TongueEdges tongue(const Excitation& v, int order) {
 std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int first, int last) {
   require(first >= 0 && first <= kLargestTongue, "first", first, "0 to 1000");
   require(last >= first && last <= kLargestTongue, "last", last, "first to 1000");
-  const Excitation v(coefficient);
+  const FourierExcitation v(coefficient);
   std::vector<TongueEdges> edges;
   for (int order = first; order <= last; ++order)
     edges.push_back(v.even ? even_tongue(v, order) : tongue(v, order));
@@ -132,7 +100,7 @@ std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int f
 CharacteristicValue mean_of_winding(const PeriodicFunction& coefficient, double winding) {
   require(winding > 0.0 && winding < 0.5 * kLargestTongue, "winding", winding, "above 0, below 500");
   require(2.0 * winding != std::floor(2.0 * winding), "winding", winding, "between two multiples of 1/2");
-  const Excitation v(coefficient);
+  const FourierExcitation v(coefficient);
   const HillMatrix matrix = v.matrix(HillBasis::bloch, winding - std::floor(winding));
   return eigenvalue(matrix, static_cast<int>(2.0 * winding), winding * winding, v.change);
 }

@@ -6,7 +6,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 work=${1:-$(mktemp -d)}
 target=${2:-$here}
 mkdir -p "$work"
-for program in cases taylor fourier collocation sturm fraction merge normal_form; do
+for program in cases taylor fourier collocation sturm fraction merge normal_form width; do
     ${CXX:-g++} -O2 -std=c++20 -I"${EIGEN:-/usr/include/eigen3}" "$here/$program.cpp" -o "$work/$program"
 done
 "$work/cases" "$work"
@@ -20,4 +20,5 @@ taylor=$!
 wait $taylor
 "$work/merge" "$work" "$target"
 "$work/normal_form" "$target"
+"$work/width" "$target"
 echo "written to $target"

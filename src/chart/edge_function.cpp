@@ -1,0 +1,145 @@
+#include "chart/edge_function.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/characteristic_values.hpp"
+#include "strutt/floquet/stability.hpp"
+
+namespace strutt {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+bool same_harmonics(const PeriodicFunction& a, const PeriodicFunction& b) {
+  return std::ranges::equal(a.harmonics(), b.harmonics(), [](const Harmonic& x, const Harmonic& y) {
+    return x.order == y.order && x.cosine == y.cosine && x.sine == y.sine;
+  });
+}
+
+std::optional<double> amplitude_of_one_harmonic(const PeriodicFunction& v) {
+  if (v.is_constant()) return 0.0;
+  if (v.harmonics().size() != 1 || v.harmonics().front().order != 1) return std::nullopt;
+  return std::hypot(v.harmonics().front().cosine, v.harmonics().front().sine);
+}
+
+double sum_of_amplitudes(const PeriodicFunction& v) {
+  double sum = 0.0;
+  for (const Harmonic& h : v.harmonics()) sum += std::abs(h.cosine) + std::abs(h.sine);
+  return sum;
+}
+
+/// Mathieu's: delta = a/4 at q = 2 epsilon, whose rounding moves a by 2 of it at most.
+TongueEdges mathieu_edges(int order, double epsilon) {
+  const auto pair = characteristic_values(order, order, 2.0 * epsilon).front();
+  const auto quarter = [&](const CharacteristicValue& x) {
+    return CharacteristicValue{0.25 * x.value, 0.25 * x.error + 2.0 * kUnit * epsilon};
+  };
+  if (!pair.b) return {order, std::nullopt, quarter(pair.a)};
+  return {order, quarter(*pair.b), quarter(pair.a)};
+}
+
+}  // namespace
+
+double change_between(const LinePoint& a, const LinePoint& b) {
+  double sum = std::abs(a.mean - b.mean);
+  const auto left = a.variation.harmonics(), right = b.variation.harmonics();
+  for (auto i = left.begin(), j = right.begin(); i != left.end() || j != right.end();) {
+    const bool one = j == right.end() || (i != left.end() && i->order < j->order);
+    const bool two = i == left.end() || (j != right.end() && j->order < i->order);
+    const Harmonic x = two ? Harmonic{} : *i, y = one ? Harmonic{} : *j;
+    sum += std::abs(x.cosine - y.cosine) + std::abs(x.sine - y.sine);
+    if (!two) ++i;
+    if (!one) ++j;
+  }
+  return sum;
+}
+
+LineEquation::LineEquation(const Scene& scene, const TongueLine& line)
+    : scene_(scene), value_(&parameter(scene_, line.parameter)) {}
+
+LinePoint LineEquation::at(double parameter) {
+  *value_ = parameter;
+  const LinearModel model = linear_model(scene_);
+  const auto* equation = std::get_if<HillEquation>(&model);
+  if (equation == nullptr) throw InvalidInput("[linear] has no tongues of Hill's equation");
+  require(equation->damping == 0.0, "damping", equation->damping, "0 for tongues");
+  const auto& w = equation->coefficient;
+  const PeriodicFunction v = w.plus(-w.mean());
+  const double relative = equation->coefficient_error;
+  return {parameter, w.mean(), v, relative * (std::abs(w.mean()) + sum_of_amplitudes(v)), relative};
+}
+
+double LineEquation::growth(double parameter) {
+  *value_ = parameter;
+  const StabilityParts parts{.winding = false, .matrix = false};
+  return analyse(engine_, linear_model(scene_), {.tolerance = 1e-13}, parts).growth;
+}
+
+double EdgeFunction::Value::below(bool upper) const {
+  return point.mean - (upper ? edges.upper.value : edges.lower->value);
+}
+
+double EdgeFunction::Value::error(bool upper) const {
+  return point.error + (upper ? edges.upper.error : edges.lower->error) + kUnit * std::abs(below(upper));
+}
+
+const EdgeFunction::Value& EdgeFunction::at(double parameter) {
+  if (const auto found = known_.find(parameter); found != known_.end()) return found->second;
+  const LinePoint point = line_.at(parameter);
+  last_ = Value{point, edges_of(point)};
+  return known_.emplace(parameter, *last_).first->second;
+}
+
+TongueEdges EdgeFunction::edges_of(const LinePoint& point) {
+  if (last_ && same_harmonics(last_->point.variation, point.variation)) return last_->edges;
+  if (const auto epsilon = amplitude_of_one_harmonic(point.variation)) return mathieu_edges(order_, *epsilon);
+  return tongue_edges(point.variation, order_, order_).front();
+}
+
+std::optional<EdgeFunction::Slope> EdgeFunction::slope(bool upper, double from, double to,
+                                                       const TongueLine& within) {
+  constexpr int kNodes = 12;
+  const double centre = 0.5 * (from + to);
+  const double reach = 0.02 * std::max(std::abs(centre), 0.05 * (within.to - within.from));
+  double low = std::max(within.from, centre - reach), high = std::min(within.to, centre + reach);
+  if (centre > 0.0) low = std::max(low, 0.0);  // where V changes its sign edges may have a corner
+  if (centre < 0.0) high = std::min(high, 0.0);
+  const double half = 0.5 * (high - low), middle = 0.5 * (high + low);
+  if (from < low || to > high || to - from > 0.25 * half || !(half > 0.0)) return std::nullopt;
+  std::array<double, kNodes> values, coefficients{};
+  double noise = 0.0;
+  for (int j = 0; j < kNodes; ++j) {
+    const Value& value = at(middle + half * std::cos(std::numbers::pi * (j + 0.5) / kNodes));
+    values[static_cast<std::size_t>(j)] = value.below(upper);
+    noise = std::max(noise, 2.0 * kUnit * (std::abs(value.point.mean) + std::abs(value.edges.upper.value)));
+  }
+  for (int k = 0; k < kNodes; ++k) {
+    double& sum = coefficients[static_cast<std::size_t>(k)];
+    for (int j = 0; j < kNodes; ++j)
+      sum += values[static_cast<std::size_t>(j)] * std::cos(std::numbers::pi * k * (j + 0.5) / kNodes);
+    sum *= 2.0 / kNodes;
+  }
+  // T_k' = k U_(k-1); three Gauss points give the mean of the slope
+  const auto derivative = [&](double x) {
+    const double t = std::clamp((x - middle) / half, -1.0, 1.0);
+    double sum = 0.0, before = 0.0, u = 1.0;
+    for (int k = 1; k < kNodes; ++k) {
+      sum += k * coefficients[static_cast<std::size_t>(k)] * u;
+      const double next = 2.0 * t * u - before;
+      before = u;
+      u = next;
+    }
+    return sum / half;
+  };
+  const double side = std::sqrt(0.6) * 0.5 * (to - from);
+  const double mean =
+      (5.0 * derivative(centre - side) + 8.0 * derivative(centre) + 5.0 * derivative(centre + side)) / 18.0;
+  const double rest = (std::abs(coefficients[kNodes - 1]) + std::abs(coefficients[kNodes - 2])) * kNodes;
+  return Slope{mean, (rest + 4.0 * kNodes * noise) / half / std::abs(mean)};
+}
+
+}  // namespace strutt

@@ -1,0 +1,95 @@
+#include "chart/edge_zeros.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "strutt/base/error.hpp"
+
+namespace strutt {
+namespace {
+
+constexpr double kResolution = 1e-9;  // of the line
+constexpr int kMostPieces = 200'000;
+
+class ZeroSearch {
+ public:
+  ZeroSearch(EdgeFunction& function, bool upper, const TongueLine& line, const std::atomic<bool>* cancel)
+      : function_(function),
+        upper_(upper),
+        resolution_(kResolution * (line.to - line.from)),
+        cancel_(cancel) {
+    const double from = beyond_zero(line.from, line.to), to = beyond_zero(line.to, line.from);
+    if (from > line.from) add(line.from, value(from) > 0.0);
+    if (!(from < to)) return;
+    search(from, to);
+    if (to < line.to) add(line.to, value(to) < 0.0);
+  }
+
+  std::vector<EdgeZero> zeros;
+
+ private:
+  double value(double p) { return function_.at(p).below(upper_); }
+  void add(double position, bool rising) { zeros.push_back({upper_, rising, position}); }
+
+  /// An end of the line on which F is 0 is a zero; the search begins where F is again more than its error.
+  double beyond_zero(double end, double other) {
+    if (value(end) != 0.0) return end;
+    for (double step = resolution_; step < std::abs(other - end); step *= 2.0) {
+      const double p = end + std::copysign(step, other - end);
+      if (std::abs(value(p)) > 2.0 * function_.at(p).error(upper_)) return p;
+    }
+    return other;
+  }
+
+  /// |F(a)| + |F(b)| is more than F can change on the way to zero and back.
+  bool empty(double a, double b) {
+    const auto &low = function_.at(a), &high = function_.at(b);
+    const double change = change_between(low.point, high.point);
+    return change == 0.0 || std::abs(low.below(upper_)) + std::abs(high.below(upper_)) >
+                                change * (1.0 + 1e-12) + low.error(upper_) + high.error(upper_);
+  }
+
+  void search(double a, double b) {
+    if (++pieces_ > kMostPieces)
+      throw NumericalFailure("tongue " + std::to_string(function_.order()) +
+                             ": no proof that all crossings are found");
+    if (!(a < b) || (cancel_ != nullptr && *cancel_)) return;
+    const double at_a = value(a), at_b = value(b);
+    if ((at_a < 0.0) != (at_b < 0.0)) {
+      const double position = solve(a, b);
+      search(a, position - resolution_);
+      add(position, at_b > at_a);
+      search(position + resolution_, b);
+      return;
+    }
+    if (b - a <= resolution_ || empty(a, b)) return;
+    const double middle = std::midpoint(a, b);
+    search(a, middle);
+    search(middle, b);
+  }
+
+  double solve(double a, double b) {
+    std::uintmax_t steps = 200;
+    const auto neighbours = [](double x, double y) { return std::nextafter(x, y) == y || x == y; };
+    const auto bracket = boost::math::tools::toms748_solve([this](double p) { return value(p); }, a, b,
+                                                           value(a), value(b), neighbours, steps);
+    return std::abs(value(bracket.first)) < std::abs(value(bracket.second)) ? bracket.first : bracket.second;
+  }
+
+  EdgeFunction& function_;
+  bool upper_;
+  double resolution_;
+  const std::atomic<bool>* cancel_;
+  int pieces_ = 0;
+};
+
+}  // namespace
+
+std::vector<EdgeZero> edge_zeros(EdgeFunction& function, bool upper, const TongueLine& line,
+                                 const std::atomic<bool>* cancel) {
+  return ZeroSearch(function, upper, line, cancel).zeros;
+}
+
+}  // namespace strutt

@@ -1,0 +1,192 @@
+#include "strutt/floquet/tongue_width.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "floquet/fourier_excitation.hpp"
+#include "floquet/resonant_block.hpp"
+#include "strutt/base/error.hpp"
+
+namespace strutt {
+namespace {
+
+template <unsigned digits>
+using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<digits>,
+                                           boost::multiprecision::et_off>;
+
+constexpr int kMostSteps = 40;
+
+/// A bound of a width from both sides.
+struct Enclosure {
+  long double low = 0, high = std::numeric_limits<long double>::infinity();
+
+  void narrow(long double from, long double to) {
+    low = std::max(low, from);
+    high = std::min(high, to);
+  }
+  TongueWidth width() const {
+    if (high == 0) return {};
+    const auto value = static_cast<double>(0.5L * (low + high));
+    if (value == 0.0) return {0.0, 1.0};  // below the smallest double
+    const long double radius = std::max(high - value, value - low);
+    return {value, low > 0 ? static_cast<double>(radius / value * (1 + 0x1p-40L)) : 1.0};
+  }
+  bool sharp() const { return high == 0 || high - low <= kWidthAccuracy * low; }
+};
+
+/// Both edges in the precision of Real, as balls, and the width from them.
+template <typename Real, typename Value>
+class WidthSearch {
+ public:
+  WidthSearch(const HillMatrix& matrix, const TongueEdges& edges) : matrix_(matrix), order_(edges.order) {
+    lower_ = ball(*edges.lower);
+    upper_ = ball(edges.upper);
+  }
+
+  void run(Enclosure& enclosure) {
+    ResonantBlock<Value> block = at(hull());
+    if (!block.finite()) return;
+    use(block, enclosure);
+    if (enclosure.sharp()) return;
+    refine(block);
+    const Ball<Real> difference = upper_ - lower_;
+    enclosure.narrow(difference.lower(), difference.upper());
+    block = at(hull());
+    if (block.finite()) use(block, enclosure);
+  }
+
+ private:
+  static Ball<Real> ball(const CharacteristicValue& x) { return {Real(x.value), x.error * Ball<Real>::kUp}; }
+
+  ResonantBlock<Value> at(const Ball<Real>& x) const {
+    return ResonantElimination<Real, Value>(matrix_, order_, x, Direction::mean).run();
+  }
+
+  Ball<Real> hull() const {
+    const Real middle = (lower_.middle + upper_.middle) / 2;
+    const Ball<Real> half = Ball<Real>{upper_.middle, 0} - Ball<Real>{middle, 0};
+    return {middle, (half.upper() + std::max(lower_.radius, upper_.radius)) * Ball<Real>::kUp +
+                        Ball<Real>::unit() * Ball<Real>{middle, 0}.size()};
+  }
+
+  /// width = 2 |beta|/|h'|, both anywhere in the hull.
+  static void use(const ResonantBlock<Value>& block, Enclosure& enclosure) {
+    const Ball<Value>&beta = block.coupling.value, &slope = block.distance.slope;
+    const long double least = std::max(slope.lower(), 1.0L);
+    constexpr long double up = Ball<Value>::kUp;
+    enclosure.narrow(2 * beta.lower() / slope.upper() / up, 2 * beta.upper() / least * up);
+  }
+
+  /// Real coupling: the edges are the zeros of h - beta and h + beta, in one order or the other.
+  void refine(const ResonantBlock<Real>& around) {
+    const Ball<Real> slope = around.distance.slope, change = around.coupling.slope, both = hull();
+    lower_ = zero(both, slope - change,
+                  [](const auto& block) { return block.distance.value - block.coupling.value; });
+    upper_ = zero(both, slope + change,
+                  [](const auto& block) { return block.distance.value + block.coupling.value; });
+  }
+
+  /// Complex coupling: h = +-|beta|, whose slope lies within h' +- |beta'|.
+  void refine(const ResonantBlock<WideComplex<Real>>& around) {
+    const auto& fall = around.distance.slope;
+    const Ball<Real> slope{fall.middle.re, fall.radius + around.coupling.slope.upper()};
+    const auto side = [](int sign) {
+      return [sign](const ResonantBlock<WideComplex<Real>>& block) {
+        const auto &h = block.distance.value, &beta = block.coupling.value;
+        const Real size = MidpointTraits<Value>::absolute(beta.middle);
+        return Ball<Real>{h.middle.re, h.radius} +
+               Ball<Real>{Real(sign * size), beta.radius + Ball<Value>::unit() * beta.size()};
+      };
+    };
+    lower_ = zero(lower_, slope, side(-1));
+    upper_ = zero(upper_, slope, side(1));
+  }
+
+  /// Newton's steps from the middle of a ball that holds the zero, as long as they gain.
+  template <typename Function>
+  Ball<Real> zero(Ball<Real> x, const Ball<Real>& slope, const Function& function) const {
+    const Ball<Real> inverse = real_inverse(slope);
+    for (int step = 0; inverse.finite() && step < kMostSteps; ++step) {
+      const Ball<Real> middle{x.middle, 0};
+      const Ball<Real> next = middle - function(at(middle)) * inverse;
+      if (!(next.radius < 0.5L * x.radius)) break;
+      x = next;
+    }
+    return x;
+  }
+
+  const HillMatrix& matrix_;
+  int order_;
+  Ball<Real> lower_, upper_;
+};
+
+template <unsigned digits>
+void search(const FourierExcitation& v, const TongueEdges& edges, Enclosure& enclosure) {
+  if (enclosure.sharp()) return;
+  const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
+  using Real = Wide<digits>;
+  if (v.even)
+    WidthSearch<Real, Real>(matrix, edges).run(enclosure);
+  else
+    WidthSearch<Real, WideComplex<Real>>(matrix, edges).run(enclosure);
+}
+
+/// |dh/dx| / |dh/dnu| in the middle of a tongue.
+template <typename Real, typename Value>
+double slope_ratio(const HillMatrix& matrix, const TongueEdges& edges) {
+  const Ball<Real> middle{Real(std::midpoint(edges.lower->value, edges.upper.value)), 0};
+  const auto slope = [&](Direction direction) {
+    return ResonantElimination<Real, Value>(matrix, edges.order, middle, direction)
+        .run()
+        .distance.slope.size();
+  };
+  return static_cast<double>(slope(Direction::mean) / slope(Direction::exponent));
+}
+
+/// The largest common divisor of the orders: the true period of V is 2 pi over it.
+int common_order(const FourierExcitation& v) {
+  int divisor = 0;
+  for (std::size_t m = 1; m < v.harmonics.size(); ++m)
+    if (v.harmonics[m] != 0.0) divisor = std::gcd(divisor, static_cast<int>(m));
+  return divisor;
+}
+
+}  // namespace
+
+TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges) {
+  require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
+  const FourierExcitation v(coefficient);
+  const int divisor = common_order(v);
+  // the two modes do not meet
+  if (divisor == 0 || edges.order % divisor != 0) return {};
+  const auto &low = *edges.lower, &high = edges.upper;
+  const long double difference = static_cast<long double>(high.value) - low.value;
+  const long double error = static_cast<long double>(high.error) + low.error;
+  Enclosure enclosure;
+  enclosure.narrow(difference - error, difference + error);
+  search<34>(v, edges, enclosure);
+  search<110>(v, edges, enclosure);
+  search<350>(v, edges, enclosure);
+  TongueWidth width = enclosure.width();
+  // the coefficient is turned to its even centre with a rounding, which counts once in each of the factors of
+  // beta
+  if (v.change > 0.0)
+    width.relative_error += (edges.order + 1) * v.change / v.matrix(HillBasis::bloch, 0.0).norm();
+  return width;
+}
+
+double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
+                            const TongueWidth& width) {
+  require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
+  if (width.value == 0.0 || width.relative_error >= 1.0) return 0.0;
+  const FourierExcitation v(coefficient);
+  const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
+  using Real = Wide<34>;
+  const double ratio =
+      v.even ? slope_ratio<Real, Real>(matrix, edges) : slope_ratio<Real, WideComplex<Real>>(matrix, edges);
+  return std::numbers::pi * ratio * width.value;
+}
+
+}  // namespace strutt

@@ -1,0 +1,123 @@
+// The command `strutt tongues`: columns, JSON, files, exit codes.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/scratch.hpp"
+#include "support/program.hpp"
+
+namespace strutt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// A folder with a scene, and the command on it.
+class Command {
+ public:
+  explicit Command(const std::string& scene = "[mathieu]\nepsilon = 0.01\n") { write("scene.toml", scene); }
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::string path = (directory_.path() / name).string();
+    std::ofstream(path) << text;
+    return path;
+  }
+  Result run(const std::string& along, const Words& more = {}) const {
+    Words words{"tongues", (directory_.path() / "scene.toml").string(), "--along", along};
+    words.insert(words.end(), more.begin(), more.end());
+    return strutt(words);
+  }
+
+ private:
+  ScratchDirectory directory_;
+};
+
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+}  // namespace
+
+TEST_CASE("tongues writes the rows of the contract", "[apps][tongues]") {
+  const Result result = Command().run("mathieu.delta=-1:40");
+  CHECK(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 26);
+  CHECK(rows[0] ==
+        Words{"n", "edge", "position", "width", "width_relative_error", "error", "method", "outcome"});
+  CHECK(csv_comment(result.out, "units") == "1,,1,1,1,1,,");
+  CHECK(rows[1][0] == "0");
+  CHECK(rows[1][1] == "upper");
+  CHECK(rows[1][3].empty());
+  CHECK(rows[1][4].empty());
+  CHECK(rows[24][0] == "12");
+  CHECK(rows[24][1] == "lower");
+  CHECK(rows[25][1] == "upper");
+  CHECK(number(rows[25][3]) == Approx(3.0644926e-43).epsilon(1e-7).margin(0));
+  CHECK(rows[25][6] == "fourier");
+  CHECK(rows[25][7] == "converged");
+}
+
+TEST_CASE("tongues takes a line for each row of a table", "[apps][tongues]") {
+  const Command command;
+  const auto table = command.write("at.csv", "mathieu.epsilon\n0.5\n0\n");
+  const auto rows = csv_rows(command.run("mathieu.delta=-1:0.9", {"--at", table}).out);
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[0][2] == "mathieu.epsilon");
+  CHECK(rows[1][2] == "0.5");
+  CHECK(rows[4][2] == "0");
+  CHECK(rows[4][0] == "0");
+  CHECK(rows[5][4] == "0");  // closed: without excitation there are no tongues
+  CHECK(rows[5][3] == "0.25");
+  const auto one = csv_rows(command.run("mathieu.delta=-1:0.9", {"--at", table, "--threads", "1"}).out);
+  CHECK(one == rows);
+}
+
+TEST_CASE("tongues numbers the crossings where there are several", "[apps][tongues]") {
+  const auto rows =
+      csv_rows(Command("[mathieu]\ndelta = 0.35\n").run("mathieu.epsilon=-1:1", {"--count", "2"}).out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].back() == "crossing");
+  CHECK(rows[1].back() == "0");
+  CHECK(rows[2].back() == "1");
+}
+
+TEST_CASE("tongues adds growth if asked for", "[apps][tongues]") {
+  const auto rows = csv_rows(Command().run("mathieu.delta=0.1:0.5", {"--growth"}).out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0][8] == "growth");
+  CHECK(rows[0][9] == "growth_position");
+  CHECK(number(rows[1][8]) == Approx(3.14159e-2).epsilon(1e-4));
+  CHECK(number(rows[1][9]) == Approx(0.25).epsilon(1e-3));
+  CHECK(rows[2][8] == rows[1][8]);
+}
+
+TEST_CASE("tongues writes JSON, with units in the scene's parameters", "[apps][tongues]") {
+  const Command command("[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n");
+  const auto result = command.run("support.frequency=1 Hz:2 Hz", {"--json"});
+  CHECK(result.code == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  REQUIRE(json["rows"].size() == 2);
+  CHECK(json["rows"][0]["n"] == 1);
+  CHECK(json["rows"][1]["edge"] == "upper");
+  CHECK(json["provenance"]["method"] == "fourier");
+  const double width = json["rows"][1]["width"];
+  CHECK(width == Approx(double(json["rows"][1]["position"]) - double(json["rows"][0]["position"])));
+}
+
+TEST_CASE("tongues names the flag or the cell that is wrong", "[apps][tongues]") {
+  const Command command;
+  for (const char* along : {"mathieu.delta", "mathieu.delta=1", "mathieu.delta=2:1", "mathieu.delta=0:1:3",
+                            "delta=0:1", "mathieu.delta=0:x", "=0:1"}) {
+    CAPTURE(along);
+    const Result result = command.run(along);
+    CHECK(result.code == 2);
+    CHECK_THAT(result.err, Catch::Matchers::Contains("--along"));
+  }
+  CHECK(command.run("mathieu.delta=0:1", {"--count", "0"}).code == 2);
+  CHECK(command.run("mathieu.delta=0:1", {"--tolerance", "1e-14"}).code == 2);
+  CHECK(command.run("mathieu.delta=0:1", {"--method", "cvode"}).code == 2);
+  CHECK(command.run("mathieu.delta=0:1", {"--at", command.write("a.csv", "mathieu.epsilon\nnan\n")}).code ==
+        3);
+  CHECK(command.run("mathieu.delta=0:1", {"--at", command.write("b.csv", "mathieu.delta\n1\n")}).code == 3);
+}
+
+}  // namespace strutt::test

@@ -1,0 +1,116 @@
+#include "strutt/floquet/tongue_width.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "strutt/base/error.hpp"
+#include "support/reference.hpp"
+
+namespace strutt::test {
+namespace {
+
+using reference::Real;
+
+PeriodicFunction cosine(double epsilon) { return PeriodicFunction::fourier(0.0, {{1, epsilon, 0.0}}); }
+
+TongueWidth width_of(const PeriodicFunction& v, int order) {
+  return tongue_width(v, tongue_edges(v, order, order).front());
+}
+
+double relative_error(const TongueWidth& width, const Real& truth) {
+  return static_cast<double>(abs(Real(width.value) / truth - 1));
+}
+
+}  // namespace
+
+TEST_CASE("widths of Mathieu's tongues have relative accuracy",
+          "[floquet][tongues][reference][extreme][N06]") {
+  int rows = 0;
+  for (const auto& row : reference::read("width")) {
+    const int order = static_cast<int>(row.input("n"));
+    const auto v = cosine(row.input("epsilon"));
+    const TongueWidth width = width_of(v, order);
+    INFO("n = " << order << ", epsilon = " << row.text("epsilon"));
+    CHECK(width.relative_error <= 1e-11);
+    CHECK(relative_error(width, row.result("width")) <= width.relative_error);
+    ++rows;
+  }
+  CHECK(rows == 48);
+}
+
+TEST_CASE("a width of 1e-295 is as good as any", "[floquet][tongues][extreme][N06]") {
+  // 2 (epsilon/2)^n / ((n - 1)!)^2 but for a factor 1 + O(epsilon^2), DLMF 28.6.15
+  const double epsilon = 1e-12;
+  Real expected = 2;
+  for (int k = 1; k <= 21; ++k) expected *= Real(epsilon) / 2;
+  for (int k = 1; k <= 20; ++k) expected /= Real(k) * k;
+  const TongueWidth width = width_of(cosine(epsilon), 21);
+  CHECK(width.value < 1e-294);
+  CHECK(width.value > 1e-296);
+  CHECK(width.relative_error <= 1e-11);
+  CHECK(relative_error(width, expected) <= width.relative_error);
+}
+
+TEST_CASE("a width does not depend on the phase", "[floquet][tongues]") {
+  const TongueWidth width = width_of(cosine(0.01), 7);
+  for (const double phase : {0.5, 2.0}) {
+    const auto shifted =
+        PeriodicFunction::fourier(0.0, {{1, 0.01 * std::cos(phase), 0.01 * std::sin(phase)}});
+    const TongueWidth same = width_of(shifted, 7);
+    CHECK(same.relative_error <= 1e-10);
+    CHECK(same.value == Approx(width.value).epsilon(1e-13).margin(0.0));
+  }
+}
+
+TEST_CASE("a coefficient without symmetry has the width of perturbation theory", "[floquet][tongues]") {
+  // a cos t + b sin 2t: two ways from the mode -3/2 to 3/2, over -1/2 or 1/2, whose distance is 2: width a
+  // b/2
+  const double a = 1e-12, b = 3e-12;
+  const TongueWidth narrow = width_of(PeriodicFunction::fourier(0.0, {{1, a, 0.0}, {2, 0.0, b}}), 3);
+  CHECK(narrow.relative_error <= 1e-11);
+  CHECK(narrow.value == Approx(0.5 * a * b).epsilon(1e-11).margin(0.0));
+}
+
+TEST_CASE("where the edges are apart the width is their difference", "[floquet][tongues]") {
+  const auto v = PeriodicFunction::fourier(0.0, {{1, 0.8, 0.1}, {2, 0.0, 0.5}, {3, -0.2, 0.3}});
+  for (const TongueEdges& edges : tongue_edges(v, 1, 6)) {
+    const TongueWidth width = tongue_width(v, edges);
+    const double difference = edges.upper.value - edges.lower->value;
+    CHECK(width.relative_error <= 1e-11);
+    CHECK(std::abs(width.value - difference) <= edges.upper.error + edges.lower->error + 1e-15);
+  }
+}
+
+TEST_CASE("a closed tongue has an interval around 0", "[floquet][tongues][extreme][N08]") {
+  // Whittaker-Hill: cos t + cos(2t)/2 has no even tongues [Magnus & Winkler, chapter 7]
+  const auto closed = PeriodicFunction::fourier(0.0, {{1, 1.0, 0.0}, {2, 0.5, 0.0}});
+  for (const int order : {2, 4, 6}) {
+    const TongueWidth width = width_of(closed, order);
+    CHECK(width.relative_error == 1.0);
+    CHECK(width.value < 1e-100);
+  }
+  for (const int order : {1, 3, 5}) CHECK(width_of(closed, order).relative_error <= 1e-11);
+  // a change of the last bit opens it, and the width says so
+  const auto open = PeriodicFunction::fourier(0.0, {{1, 1.0, 0.0}, {2, std::nextafter(0.5, 1.0), 0.0}});
+  const TongueWidth width = width_of(open, 2);
+  CHECK(width.relative_error <= 1e-11);
+  CHECK(width.value > 1e-17);
+  CHECK(width.value < 1e-15);
+}
+
+TEST_CASE("tongues that no harmonic reaches are closed, proved", "[floquet][tongues][extreme][N08]") {
+  const auto second = PeriodicFunction::fourier(0.0, {{2, 0.3, 0.0}});
+  for (const int order : {1, 3, 5}) {
+    const TongueWidth width = width_of(second, order);
+    CHECK(width.value == 0.0);
+    CHECK(width.relative_error == 0.0);
+  }
+  CHECK(width_of(second, 2).value == Approx(0.3).epsilon(0.01));
+  CHECK(width_of(PeriodicFunction::constant(0.0), 3).value == 0.0);
+}
+
+TEST_CASE("tongue 0 has no width", "[floquet][tongues]") {
+  CHECK_THROWS_AS(width_of(cosine(0.1), 0), InvalidInput);
+}
+
+}  // namespace strutt::test
