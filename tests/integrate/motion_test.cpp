@@ -10,6 +10,7 @@
 #include <string>
 
 #include "strutt/base/error.hpp"
+#include "support/paths.hpp"
 
 using namespace strutt;
 
@@ -22,7 +23,7 @@ struct ReferenceMotion {
 };
 
 std::vector<ReferenceMotion> read_motions(const std::string& name) {
-  std::ifstream file(STRUTT_SOURCE_DIR "/tests/reference/" + name);
+  std::ifstream file(strutt::test::source_directory() + "/tests/reference/" + name);
   std::vector<ReferenceMotion> rows;
   std::string line;
   while (std::getline(file, line)) {
