@@ -171,9 +171,8 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
   for (std::size_t first = 0; first < total; first += most) {
     const std::size_t size = std::min(most, total - first);
     const std::size_t together = std::clamp<std::size_t>(size / (4 * slots), 1, kMostTogether);
-    parallel_for((size + together - 1) / together, parallel, [&](std::size_t task, int slot) {
+    parallel_for_ranges(size, together, parallel, [&](std::size_t begin, std::size_t end, int slot) {
       const auto own = static_cast<std::size_t>(slot);
-      const std::size_t begin = task * together, end = std::min(begin + together, size);
       std::vector<LinearModel> models;
       for (std::size_t i = begin; i < end; ++i)
         models.push_back(linear_model(scenes[own]->at(points.values[first + i])));

@@ -75,10 +75,9 @@ class PointByPoint {
       count = std::min(batch_.size(), places.size() - start);
       const std::size_t together = std::clamp<std::size_t>(count / (4 * engines_.size()), 1, kMostTogether);
       const std::span<const std::size_t> some(&places[start], count);
-      const bool complete =
-          parallel_for((count + together - 1) / together, parallel_, [&](std::size_t task, int slot) {
-            const std::size_t first = task * together, size = std::min(together, count - first);
-            fill_cells(strip, some.subspan(first, size), &records_[first],
+      const bool complete = parallel_for_ranges(
+          count, together, parallel_, [&](std::size_t first, std::size_t last, int slot) {
+            fill_cells(strip, some.subspan(first, last - first), &records_[first],
                        *engines_[static_cast<std::size_t>(slot)]);
           });
       // a cell that was being integrated when the caller cancelled counts as done, but holds nothing
