@@ -79,30 +79,37 @@ SceneFile effective(SceneFile scene, const ChartRequest& request) {
   return scene;
 }
 
+std::string boxes(std::size_t count) { return fmt::format("{} {}", count, count == 1 ? "box" : "boxes"); }
+
 /// Boxes of a surrogate and what building them took.
 std::string surrogate_line(const SurrogateReport& report) {
-  return fmt::format("{} boxes, degrees up to {}, {} nodes, checked at {} points, {} boxes left to point by point",
-                     report.boxes, report.highest_degree, report.nodes, report.checks,
-                     report.boxes_left_out + report.failed_checks);
+  std::string line = fmt::format("{}, degrees up to {}, {} nodes, checked at {} points", boxes(report.boxes),
+                                 report.highest_degree, report.nodes, report.checks);
+  if (report.boxes_left_out > 0) line += ", " + boxes(report.boxes_left_out) + " left to point by point";
+  if (report.failed_checks > 0) line += ", " + boxes(report.failed_checks) + " given up by the check";
+  return line;
 }
 
-/// What the plan says about the surrogate that was asked for. It is built: that takes little next to a chart.
-std::vector<std::string> surrogate_lines(const Scene& scene, const ChartRequest& request, const ChartPlan& plan) {
+/// What the plan expects of the surrogate, or why there is none; nothing where another method was asked for.
+std::vector<std::string> surrogate_lines(const ChartPlan& plan) {
   if (!plan.refusal.empty()) return {"surrogate: not used, " + plan.refusal};
-  if (plan.method != Method::surrogate) return {};
-  const Surrogate surrogate(scene, request.x, request.y,
-                            {.tolerance = request.tolerance, .threads = request.threads});
-  return {"surrogate: " + surrogate_line(surrogate.report())};
+  if (!plan.surrogate) return {};
+  const auto& s = *plan.surrogate;
+  return {fmt::format("surrogate: about {}, degrees up to {}, {:.0f} nodes, {:.3g} % of the cells", boxes(s.boxes),
+                      s.highest_degree, s.nodes, 100.0 * s.cells / static_cast<double>(plan.cells))};
 }
 
 std::vector<std::string> plan_lines(const ChartRequest& request, const ChartPlan& plan) {
-  return {fmt::format("cells: {} ({} x {})", plan.cells, request.x.points, request.y.points),
+  std::vector<std::string> lines{fmt::format("cells: {} ({} x {})", plan.cells, request.x.points, request.y.points),
           fmt::format("memory: {:.3g} MB at work, {:.3g} MB of results, budget {:.3g} MB",
                       plan.working_bytes / 1e6, plan.result_bytes / 1e6, plan.budget_bytes / 1e6),
           fmt::format("expected time: {:.2g} s", plan.expected_seconds),
           "method: " + std::string(to_string(plan.method)),
-          "tolerance: " + to_text(request.tolerance),
-          fmt::format("threads: {}", plan.threads)};
+          "point by point: " + point_line(plan.point)};
+  for (auto& line : surrogate_lines(plan)) lines.push_back(std::move(line));
+  lines.push_back("tolerance: " + to_text(request.tolerance));
+  lines.push_back(fmt::format("threads: {}", plan.threads));
+  return lines;
 }
 
 std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
@@ -183,14 +190,11 @@ ExitCode run(const ChartArguments& arguments) {
   const ChartRequest computed = arguments.figure ? with_figure_layers(request) : request;
   const ChartPlan plan = plan_of(arguments, scene, computed);
   if (arguments.dry_run) {
-    auto lines = plan_lines(request, plan);
-    const auto more = surrogate_lines(scene.scene, request, plan);
-    lines.insert(lines.end(), more.begin(), more.end());
-    print_plan(effective(scene, request), lines);
+    print_plan(effective(scene, request), plan_lines(request, plan));
     return ExitCode::done;
   }
   warn_about(arguments, scene.scene);
-  if (!plan.refusal.empty() && !arguments.quiet) {
+  if (request.method == Method::surrogate && !plan.refusal.empty() && !arguments.quiet) {
     print_warning("no surrogate: " + plan.refusal + "; computing point by point (" +
                   std::string(to_string(plan.method)) + ")");
   }

@@ -145,7 +145,7 @@ ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, cons
     bool complete = true;
     if (surrogate) {
       complete = surrogate->fill(strip, summary, places);
-      if (progress) progress(summary.cells, plan.cells);
+      if (complete && progress) progress(summary.cells, plan.cells);
     } else {
       places.resize(cells);
       std::iota(places.begin(), places.end(), std::size_t{0});

@@ -233,7 +233,7 @@ TEST_CASE("a chart by surrogate is the one point by point, and what cannot have 
   interpolated.push_back("--dry-run");
   CHECK_THAT(strutt(interpolated, in(directory)).out,
              Catch::Matchers::Contains("# method: surrogate") &&
-                 Catch::Matchers::Contains(" boxes, degrees up to "));
+                 Catch::Matchers::Contains("# surrogate: about 1 box, degrees up to "));
 
   const std::string square = "[hill]\nperiod = 1\nwaveform = \"square\"\namplitude = 0.5\n";
   const Result refused = strutt({"chart", "-", "--method", "surrogate", "--x", "hill.mean=0:1:3", "--y",
