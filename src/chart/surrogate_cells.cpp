@@ -73,6 +73,7 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
   for (const auto& count : counts) all += count;
   summary.cells += all.cells;
   summary.interpolated += all.cells;
+  summary.methods[static_cast<std::size_t>(Method::surrogate)] += all.cells;
   summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += all.cells;
   summary.largest_error = std::max(summary.largest_error, all.largest_error);
   rest.clear();

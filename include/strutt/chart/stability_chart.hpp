@@ -91,6 +91,7 @@ struct ChartSummary {
   long right_hand_sides = 0;
   double largest_error = 0.0;                     ///< of all converged cells
   std::size_t interpolated = 0;                   ///< cells whose values come from the surrogate
+  std::vector<std::size_t> methods;               ///< cells per Method that gave their values
   std::optional<SurrogateReport> surrogate;       ///< how building it went
 };
 
