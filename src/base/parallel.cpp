@@ -96,4 +96,11 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
   return done == count;
 }
 
+bool parallel_for_ranges(std::size_t count, std::size_t most, const ParallelOptions& options,
+                         const std::function<void(std::size_t, std::size_t, int)>& body) {
+  return parallel_for((count + most - 1) / most, options, [&](std::size_t range, int slot) {
+    body(range * most, std::min((range + 1) * most, count), slot);
+  });
+}
+
 }  // namespace strutt

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "chart/chebyshev.hpp"
-#include "chart/hill_model.hpp"
 #include "chart/point_equation.hpp"
-#include "chart/product_table.hpp"
 #include "chart/surrogate_box.hpp"
 #include "chart/surrogate_build.hpp"
 #include "chart/surrogate_scope.hpp"
@@ -48,29 +45,17 @@ double Surrogate::coordinate(const Axis& axis, double value) {
 }
 
 std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y) {
-  if (x.points < 2 || y.points < 2) return "an axis has only one point";
-  const auto scope = surrogate_scope(scene, x, y);
-  if (!scope.refusal.empty() || scope.kind != SurrogateKind::half_period) return scope.refusal;
-  HillModel model(scene, x, y, scope.even_phase);
-  const Axis few_x{x.parameter, x.from, x.to, 2, x.scale}, few_y{y.parameter, y.from, y.to, 2, y.scale};
-  for (const auto property : {&PointEquation::half_damping, &PointEquation::kappa_square}) {
-    const auto value = [&](double px, double py) {
-      const auto point = model.at(px, py);
-      return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
-    };
-    if (!ProductTable::of(value, few_x, few_y))
-      return "damping or mean of the coefficient is not a product of functions of the two parameters";
-  }
-  return "";
+  return surrogate_scope(scene, x, y).refusal;
 }
 
 Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options) {
   x.validate("x");
   y.validate("y");
   MonodromyOptions{.tolerance = options.tolerance}.validate();
-  if (const auto reason = refusal(scene, x, y); !reason.empty())
-    throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
-  auto built = build_surrogate(scene, x, y, options);
+  const auto scope = surrogate_scope(scene, x, y);
+  if (!scope.refusal.empty())
+    throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + scope.refusal);
+  auto built = build_surrogate(scene, x, y, options, scope, surrogate_source(scope, scene, x, y, options));
   data_ = std::move(built.data);
   cancelled_ = built.cancelled;
 }

@@ -185,6 +185,7 @@ TEST_CASE("cancelling ends a chart between strips and is reported", "[chart][sta
   ChartRequest request = request_of(400, 400, {Layer::verdict});
   request.cancel = &cancel;
   request.threads = 2;
+  request.method = Method::propagator;
   bool strip_seen = false;
   std::size_t last = 0;
   const ChartSummary summary = compute_chart(
