@@ -7,6 +7,7 @@
 
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/resonant_block.hpp"
+#include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -157,6 +158,7 @@ int common_order(const FourierExcitation& v) {
 
 TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges) {
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
+  if (is_square_wave(coefficient)) return square_wave_width(coefficient.deviation(), edges);
   const FourierExcitation v(coefficient);
   const int divisor = common_order(v);
   // the two modes do not meet
@@ -181,6 +183,7 @@ double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdg
                             const TongueWidth& width) {
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   if (width.value == 0.0 || width.relative_error >= 1.0) return 0.0;
+  if (is_square_wave(coefficient)) return square_wave_growth(coefficient.deviation(), edges);
   const FourierExcitation v(coefficient);
   const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
   using Real = Wide<34>;

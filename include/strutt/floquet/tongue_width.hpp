@@ -28,6 +28,10 @@ inline constexpr double kWidthAccuracy = 1e-11;
 /// are), at 34, 110 and 350 digits until the relative error is reached. Where it never is, the tongue is
 /// taken for closed (coexistence): the relative error is then 1 and 2 value is a bound.
 ///
+/// A square wave has a closed form: both edges in the sum s1 + s2 of the frequencies of its pieces, without
+/// cancellation (below mean = amplitude, where tongues are wide, by subtraction); some 1e-15 but next to a
+/// closed tongue.
+///
 /// Cost: 0.1 to 1 ms for one harmonic. Widths below 1e-300 lose digits as doubles do; relative_error says so.
 /// Throws as tongue_edges.
 TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges);
