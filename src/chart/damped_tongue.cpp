@@ -39,7 +39,7 @@ TongueEdge DampedTongue::edge(double position, double error, bool upper) const {
 /// with b = eta |dh/dnu|, up to terms of eta^2: a^2 = |beta|^2 - b^2.
 std::optional<DampedTongue::Narrow> DampedTongue::narrow(const Stretch& stretch) {
   const auto& value = undamped_.function().at(stretch.end->position);
-  const TongueWidth in_mean = tongue_width(value.point.variation, value.edges);
+  const TongueWidth in_mean = tongue_width(value.point.variation, value.edges, value.point.relative_error);
   const TongueEdge low = undamped_.edge(*stretch.begin, false, 0),
                    high = undamped_.edge(*stretch.end, true, 0);
   const TongueWidth whole = undamped_.width_of(*stretch.begin, *stretch.end, low, high);

@@ -91,12 +91,16 @@ struct Phases {
   double wave_slope(bool even) const { return even ? std::cos(difference) : std::sin(difference); }
 };
 
-/// arcsin(kappa wave) with the error from that of the mean and from rounding.
-CharacteristicValue phase_to_edge(const Phases& p, bool even, double error) {
+/// arcsin(kappa wave) with the error from those of the mean and the amplitude and from rounding.
+CharacteristicValue phase_to_edge(const Phases& p, bool even, double error, double amplitude_error) {
   const double sine = p.kappa * p.wave(even), product = p.s1 * p.s2;
-  const double shift = p.difference * (0.5 * error / product + 4.0 * kUnit);  // of the difference
+  // d(s1 + s2)/dA = (s2 - s1)/(2 s1 s2), in units of (s1 + s2)/A at most (s1/s2)^2
+  const double by_amplitude = amplitude_error * (1.0 + p.s1 * p.s1 / (p.s2 * p.s2));
+  const double shift =
+      p.difference * (0.5 * error / product + 4.0 * kUnit + by_amplitude);  // of the difference
   const double change = p.kappa * std::abs(p.wave_slope(even)) * shift +
-                        std::abs(sine) * (error / product + 8.0 * kUnit) + kUnit * shift * p.kappa;
+                        std::abs(sine) * (error / product + 8.0 * kUnit + 2.0 * by_amplitude) +
+                        kUnit * shift * p.kappa;
   return {std::asin(sine), change / std::sqrt(1.0 - sine * sine) + 4.0 * kUnit * std::abs(sine)};
 }
 
@@ -123,18 +127,20 @@ TongueEdges square_wave_tongue(double amplitude, int order) {
   return {order, sine, cosine};
 }
 
-TongueWidth square_wave_width(double amplitude, const TongueEdges& edges) {
+TongueWidth square_wave_width(double amplitude, const TongueEdges& edges, double amplitude_error) {
   const auto &low = *edges.lower, &high = edges.upper;
   const double difference = high.value - low.value;
-  const TongueWidth direct = from_interval(difference, low.error + high.error + kUnit * std::abs(difference));
+  const TongueWidth direct = from_interval(
+      difference, low.error + high.error + 2.0 * amplitude_error * amplitude + kUnit * std::abs(difference));
   if (!(low.value - amplitude > 1e-3 * amplitude + 1e6 * low.error)) return direct;
   const bool even = edges.order % 2 == 0;
   const Phases below(low.value, amplitude), above(high.value, amplitude);
-  const auto one = phase_to_edge(below, even, low.error), two = phase_to_edge(above, even, high.error);
+  const auto one = phase_to_edge(below, even, low.error, amplitude_error),
+             two = phase_to_edge(above, even, high.error, amplitude_error);
   const double slope = 0.5 * pi * (1.0 / (below.s1 + above.s1) + 1.0 / (below.s2 + above.s2));
   const double width = std::abs(one.value + two.value) / slope;
-  const double relative =
-      8.0 * kUnit + (low.error + high.error) / (below.s2 * below.s2);  // of the slope, in the mean
+  const double relative = 8.0 * kUnit + (low.error + high.error + 2.0 * amplitude_error * amplitude) /
+                                            (below.s2 * below.s2);  // of the slope
   const TongueWidth own = from_interval(width, (one.error + two.error) / slope + relative * width);
   return own.relative_error <= direct.relative_error ? own : direct;
 }

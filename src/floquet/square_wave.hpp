@@ -18,8 +18,8 @@ bool is_square_wave(const PeriodicFunction& v);
 TongueEdges square_wave_tongue(double amplitude, int order);
 
 /// From the difference of sigma at both edges, arcsin(kappa sin difference) at the one plus the same at the
-/// other, without cancellation; where mean < A, wide tongues, by subtraction.
-TongueWidth square_wave_width(double amplitude, const TongueEdges& edges);
+/// other, without cancellation; where mean < A, wide tongues, by subtraction. `amplitude_error` is relative.
+TongueWidth square_wave_width(double amplitude, const TongueEdges& edges, double amplitude_error);
 
 /// Largest growth per period: where sin (cos) sigma = 0, sinh(growth/2) = A |sin (cos) difference|/((s1 + s2)
 /// sqrt(s1 s2)).

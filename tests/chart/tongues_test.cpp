@@ -163,7 +163,7 @@ TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][
   CHECK(std::isnan(edges[0].width));
   CHECK(edges[1].order == 2);
   CHECK(edges[1].width_relative_error == 1.0);
-  CHECK(edges[1].width < 1e-100);
+  CHECK(edges[1].width < 1e-14);  // the period is 2 pi but for a rounding, and it counts
   CHECK(edges[2].position - edges[1].position <= 1e-12);
   CHECK(edges[1].outcome == Outcome::converged);
 }
