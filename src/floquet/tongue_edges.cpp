@@ -5,12 +5,14 @@
 
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/hill_matrix.hpp"
+#include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
+constexpr double kLargestSquareWave = 1e6;
 
 /// Eigenvalue `index` of a matrix, whose square of the frequency is known: |eigenvalue - square| <= norm of
 /// V.
@@ -90,8 +92,14 @@ TongueEdges tongue(const FourierExcitation& v, int order) {
 std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int first, int last) {
   require(first >= 0 && first <= kLargestTongue, "first", first, "0 to 1000");
   require(last >= first && last <= kLargestTongue, "last", last, "first to 1000");
-  const FourierExcitation v(coefficient);
   std::vector<TongueEdges> edges;
+  if (is_square_wave(coefficient)) {
+    const double amplitude = coefficient.deviation();
+    require(amplitude <= kLargestSquareWave, "amplitude of the square wave", amplitude, "at most 1e6");
+    for (int order = first; order <= last; ++order) edges.push_back(square_wave_tongue(amplitude, order));
+    return edges;
+  }
+  const FourierExcitation v(coefficient);
   for (int order = first; order <= last; ++order)
     edges.push_back(v.even ? even_tongue(v, order) : tongue(v, order));
   return edges;

@@ -113,4 +113,31 @@ TEST_CASE("tongue 0 has no width", "[floquet][tongues]") {
   CHECK_THROWS_AS(width_of(cosine(0.1), 0), InvalidInput);
 }
 
+TEST_CASE("where the ways between the modes cancel the errors of the coefficients count",
+          "[floquet][tongues][extreme][N08]") {
+  // tongue 2 of a cos(theta) + b cos(2 theta) is closed at b = a^2/2 (Whittaker, Hill); 1e-10 beside it
+  constexpr double kError = 1e-15;
+  const auto v = [](double a, double b) {
+    return PeriodicFunction::fourier(0.0, {{1, a, 0.0}, {2, b, 0.0}});
+  };
+  const double a = 1.0, b = 0.5 * (1.0 + 1e-10);
+  const TongueWidth width = tongue_width(v(a, b), tongue_edges(v(a, b), 2, 2).front(), kError);
+  CHECK(width.relative_error < 1e-3);
+  double largest = 0.0;
+  for (const double one : {1.0 - kError, 1.0 + kError})
+    for (const double two : {1.0 - kError, 1.0 + kError})
+      largest = std::max(largest, std::abs(width_of(v(one * a, two * b), 2).value / width.value - 1.0));
+  CHECK(largest > 1e-6);
+  CHECK(largest <= width.relative_error);
+  // at the closed tongue itself nothing but a bound is left
+  const TongueWidth closed = tongue_width(v(1.0, 0.5), tongue_edges(v(1.0, 0.5), 2, 2).front(), kError);
+  CHECK(closed.relative_error == 1.0);
+  CHECK(2.0 * closed.value >= std::abs(width_of(v(1.0 + kError, 0.5), 2).value));
+  CHECK(closed.value < 1e-14);
+  // a single harmonic loses n times its error
+  const TongueWidth single = tongue_width(cosine(0.01), tongue_edges(cosine(0.01), 9, 9).front(), kError);
+  CHECK(single.relative_error >= 9.0 * kError);
+  CHECK(single.relative_error <= 40.0 * kError);
+}
+
 }  // namespace strutt::test
