@@ -8,6 +8,7 @@
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/resonant_block.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -156,6 +157,7 @@ int common_order(const FourierExcitation& v) {
 }  // namespace
 
 TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges) {
+  const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   const FourierExcitation v(coefficient);
   const int divisor = common_order(v);
@@ -179,6 +181,7 @@ TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges&
 
 double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
                             const TongueWidth& width) {
+  const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   if (width.value == 0.0 || width.relative_error >= 1.0) return 0.0;
   const FourierExcitation v(coefficient);

@@ -79,7 +79,7 @@ TEST_CASE("A tiny parameter is neither lost nor a failure", "[floquet][character
   CHECK(at(0, 1e-100).a.value == Approx(-0.5e-200).epsilon(1e-15));
 }
 
-TEST_CASE("The index is a count: no branch is taken for another", "[floquet][characteristic][extreme][N9]") {
+TEST_CASE("The index is a count: no branch is taken for another", "[floquet][characteristic][extreme][N09]") {
   for (const double q : {0.01, 1.0, 21.0, 1024.0, 1e5, 1e8}) {
     CAPTURE(q);
     const auto values = characteristic_values(0, 200, q);
@@ -96,7 +96,7 @@ TEST_CASE("The index is a count: no branch is taken for another", "[floquet][cha
 }
 
 TEST_CASE("Twin edges are bracketed one by one: the width of tongue n, down to the rounding of a",
-          "[floquet][characteristic][extreme][N6][N50]") {
+          "[floquet][characteristic][extreme][N06][N50]") {
   // 8 (q/4)^n/((n-1)!)^2 (1 - (n + 2) q^2/(4 (n^2 - 1)^2) + O(q^4)), from DLMF 28.6.15
   const double q = 1.0;
   double factorial = 1.0;  // (n - 1)!
@@ -112,7 +112,7 @@ TEST_CASE("Twin edges are bracketed one by one: the width of tongue n, down to t
   }
 }
 
-TEST_CASE("A narrow stable band at large q is not inverted", "[floquet][characteristic][extreme][N7]") {
+TEST_CASE("A narrow stable band at large q is not inverted", "[floquet][characteristic][extreme][N07]") {
   // b_(m+1) - a_m ~ 2^(4m+5)/m! sqrt(2/pi) q^(m/2+3/4) exp(-4 sqrt(q)) (DLMF 28.8.2)
   for (const double q : {25.0, 49.0, 64.0, 100.0, 400.0, 1e6}) {
     const double band =

@@ -94,7 +94,7 @@ TEST_CASE("a point has the same bits whatever stands beside it", "[floquet][disc
   }
 }
 
-TEST_CASE("extremes have a bound or no value", "[floquet][discriminants][extreme][N1]") {
+TEST_CASE("extremes have a bound or no value", "[floquet][discriminants][extreme][N01]") {
   Points points;
   points.add(1e4, 10.0);
   points.add(1.0, 1000.0);

@@ -55,7 +55,7 @@ std::vector<double> lame_edges(int n, double k) {
 
 }  // namespace
 
-TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[floquet][known][N8]") {
+TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[floquet][known][N08]") {
   const int n = GENERATE(1, 2, 3);
   const double k = GENERATE(0.5, 0.8);
   const auto edges = lame_edges(n, k);
@@ -112,7 +112,7 @@ TEST_CASE("Meissner's equation agrees with its closed form by both routes", "[fl
   }
 }
 
-TEST_CASE("Entries beyond 1e300 are given with a scale", "[floquet][extreme][N1]") {
+TEST_CASE("Entries beyond 1e300 are given with a scale", "[floquet][extreme][N01]") {
   const auto result = at(mathieu_delta_epsilon(-1.4e4, 0.0));  // exp(743)
   CHECK(result.log_scale > 0.0);
   CHECK(result.matrix.allFinite());

@@ -102,7 +102,7 @@ TEST_CASE("Without symmetry: an edge that is known exactly", "[floquet][tongue_e
 }
 
 TEST_CASE("Closed tongues of the Whittaker-Hill equation: the width is 0 within the errors",
-          "[floquet][tongue_edges][extreme][N8]") {
+          "[floquet][tongue_edges][extreme][N08]") {
   // V = t c cos theta + (c^2/2) cos 2 theta, t a whole number: the tongues n > t with n - t odd are closed,
   // all others are open (Magnus, Winkler, Hill's Equation, section 7.4)
   for (const double c : {0.3, 0.9, 2.0}) {
