@@ -168,6 +168,26 @@ TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][
   CHECK(edges[1].outcome == Outcome::converged);
 }
 
+TEST_CASE("a tongue that falls between the points of a grid is in the list",
+          "[chart][tongues][extreme][N52]") {
+  // at epsilon = 0.1 tongues 4 and on are narrower than 1e-6: no cell of 1000 is inside one
+  const Scene scene = mathieu_scene(1.0, 0.1);
+  const TongueLine line{"mathieu.delta", 3.5, 13.0};
+  std::vector<LinearModel> cells;
+  for (int k = 0; k < 1000; ++k)
+    cells.emplace_back(mathieu_delta_epsilon(std::lerp(line.from, line.to, (k + 0.5) / 1000.0), 0.1));
+  MonodromyEngine engine;
+  for (const auto& cell : analyse(engine, cells, {.tolerance = 1e-12})) CHECK(cell.verdict == Verdict::stable);
+  const auto edges = tongues(scene, line);
+  REQUIRE(edges.size() == 8);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    CHECK(edges[k].order == 4 + static_cast<int>(k) / 2);
+    CHECK(edges[k].width > 0.0);
+    CHECK(edges[k].width < 1e-6);
+    CHECK(edges[k].width_relative_error <= 1e-10);
+  }
+}
+
 TEST_CASE("count takes the first tongues, and all are those that the line can meet", "[chart][tongues]") {
   const Scene scene = mathieu_scene(1.0, 0.01);
   const TongueLine line{"mathieu.delta", -1.0, 30.0};

@@ -82,7 +82,7 @@ TEST_CASE("the discriminant of reference is met", "[floquet][discriminants]") {
   CHECK(std::abs(points.value[0] - 2.021314397416841636175261) <= 1e-12);
 }
 
-TEST_CASE("a point has the same bits whatever stands beside it", "[floquet][discriminants][simd][N46]") {
+TEST_CASE("a point has the same bits whatever stands beside it", "[floquet][discriminants][simd][N46][extreme]") {
   Points all = scattered(5000, -5.0, 50.0, 40.0, 3);
   all.compute(1e-9);
   for (std::size_t l = 0; l < all.size(); l += 97) {

@@ -55,7 +55,7 @@ std::vector<double> lame_edges(int n, double k) {
 
 }  // namespace
 
-TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[floquet][known][N08]") {
+TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[floquet][known][N08][extreme]") {
   const int n = GENERATE(1, 2, 3);
   const double k = GENERATE(0.5, 0.8);
   const auto edges = lame_edges(n, k);
@@ -91,7 +91,7 @@ TEST_CASE("Lame's equation has exactly n open gaps, with the known edges", "[flo
   for (double h = from; h < to; h += 0.37) CHECK(at(lame(n, k, h), 1e-9).verdict == Verdict::stable);
 }
 
-TEST_CASE("Meissner's equation agrees with its closed form by both routes", "[floquet][known][N19]") {
+TEST_CASE("Meissner's equation agrees with its closed form by both routes", "[floquet][known][N19][extreme]") {
   MonodromyEngine engine;
   for (const double amplitude : {0.3, 1.5, 4.0}) {
     const auto equation =
@@ -103,7 +103,7 @@ TEST_CASE("Meissner's equation agrees with its closed form by both routes", "[fl
     const double expected =
         (2.0 * std::cos(a * pi) * std::cos(b * pi) - (a / b + b / a) * std::sin(a * pi) * std::sin(b * pi))
             .real();
-    for (const auto method : {Method::exact, Method::arkode, Method::cvode}) {
+    for (const auto method : {Method::exact, Method::propagator, Method::arkode, Method::cvode}) {
       const auto result = analyse(engine, equation, {.tolerance = 1e-9, .method = method});
       const double size = std::max(1.0, result.matrix.cwiseAbs().maxCoeff());
       CHECK(std::abs(result.discriminant - expected) <= result.error * size + 1e-13 * size);

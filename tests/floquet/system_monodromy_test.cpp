@@ -129,7 +129,7 @@ TEST_CASE("Systems begin with the propagator, and SUNDIALS is behind it", "[floq
   CHECK(both.cost.right_hand_sides == alone.cost.right_hand_sides);
 }
 
-TEST_CASE("A system that grows beyond double is right in log form", "[floquet][extreme]") {
+TEST_CASE("A system that grows beyond double is right in log form", "[floquet][extreme][N01]") {
   MonodromyEngine engine;
   auto system = pendulums();
   system.mass.setIdentity();

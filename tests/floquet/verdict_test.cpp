@@ -28,7 +28,7 @@ TEST_CASE("A margin decides exactly when its error is smaller", "[floquet][verdi
   CHECK(verdict_of({-1.0, std::nan("")}) == Verdict::unresolved);
 }
 
-TEST_CASE("Equality is called boundary only where it is proved", "[floquet][verdict][N05]") {
+TEST_CASE("Equality is called boundary only where it is proved", "[floquet][verdict][N05][extreme]") {
   for (const double delta : {0.0, 0.25, 1.0, 2.25, 6.25, 2500.0}) {
     const auto result = at(delta, 0.0);
     CHECK(result.verdict == Verdict::boundary);
@@ -72,7 +72,7 @@ TEST_CASE("Damping alone keeps constants: a boundary, proved", "[floquet][verdic
   CHECK_FALSE(std::signbit(at(0.0, 0.0).margin));  // files say 0, not -0
 }
 
-TEST_CASE("Coexistence of the square wave is proved when both pieces are whole turns", "[floquet][verdict][N08]") {
+TEST_CASE("Coexistence of the square wave is proved when both pieces are whole turns", "[floquet][verdict][N08][extreme]") {
   MonodromyEngine engine;  // w = 4 +- ... : sqrt(w) pi = whole turns over each half period
   const auto equation = hill_equation(2.0 * std::numbers::pi, PeriodicFunction::square(10.0, 6.0, 0.0));
   auto exact = equation;

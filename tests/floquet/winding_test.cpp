@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "strutt/floquet/stability.hpp"
+#include "support/models.hpp"
+#include "support/ratchet.hpp"
 
 using namespace strutt;
+using strutt::test::check_within;
 
 namespace {
 
@@ -58,4 +62,19 @@ TEST_CASE("Alternating growth and oscillation is counted", "[floquet][winding][e
   CHECK(2.0 * result.winding == std::round(2.0 * result.winding));
   CHECK(result.winding > 10.0);
   CHECK(result.winding < std::sqrt(1500.0));
+}
+
+TEST_CASE("64 periods taken for one: growth and turns are 64 times those of one",
+          "[floquet][winding][extreme][N21][ratchet]") {
+  double largest = 0.0;
+  for (const auto& [delta, epsilon] : {std::pair{1.0, 0.5}, {0.25, 0.1}, {-2.0, 1.0}, {1.7, 0.4}}) {
+    const auto one = mathieu_delta_epsilon(delta, epsilon);
+    auto many = one;
+    for (int k = 0; k < 6; ++k) many = test::over_two_periods(many);
+    const auto a = at(one, 1e-12), b = at(many, 1e-12);
+    CAPTURE(delta, epsilon, a.growth, b.growth, b.error);
+    CHECK(a.verdict == b.verdict);
+    largest = std::max({largest, std::abs(b.growth / 64.0 - a.growth), std::abs(b.winding / 64.0 - a.winding)});
+  }
+  check_within("N21 growth and winding of 64 periods over 64: difference from those of one", largest, 1e-14);
 }

@@ -136,7 +136,7 @@ TEST_CASE("known periods", "[free_pendulum][period]") {
 }
 
 TEST_CASE("a batch has the bits of the single calls, whatever its size and neighbours",
-          "[free_pendulum][period][batch]") {
+          "[free_pendulum][period][batch][extreme][N46]") {
   auto amplitudes = uniform(0.0, kPiRounded, 3000, 8);
   for (std::size_t i = 0; i < amplitudes.size(); i += 37) amplitudes[i] = kPiRounded - 1e-12 * amplitudes[i];
   amplitudes[100] = kNaN;

@@ -174,7 +174,7 @@ TEST_CASE("the determinant of a propagator is 1 within the bounds", "[integrate]
   }
 }
 
-TEST_CASE("a lane has the same bits whatever stands beside it", "[integrate][series][simd][N46]") {
+TEST_CASE("a lane has the same bits whatever stands beside it", "[integrate][series][simd][N46][extreme]") {
   auto points = scattered(101, {-5.0, 0.0}, {50.0, 40.0}, 5);
   points[7] = {std::nan(""), 1.0};
   points[8] = {1e308, 1.0};
