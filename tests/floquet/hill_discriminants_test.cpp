@@ -7,6 +7,7 @@
 
 #include "strutt/base/error.hpp"
 #include "support/hill_series.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test {
 namespace {
@@ -55,7 +56,8 @@ struct Box {
 
 }  // namespace
 
-TEST_CASE("the error of a discriminant is below its bound and the tolerance", "[floquet][discriminants][simd]") {
+TEST_CASE("the error of a discriminant is below its bound and the tolerance",
+          "[floquet][discriminants][simd][ratchet]") {
   const auto box = GENERATE(values<Box>({{-1, 5, 6, 1}, {-50, 200, 200, 1}, {0, 5, 5, 7}, {-1e-3, 1e-3, 1e-3, 1}}));
   const double tolerance = GENERATE(1e-3, 1e-7, 1e-9, 1e-12);
   CAPTURE(box.high, box.order, tolerance);
@@ -68,6 +70,7 @@ TEST_CASE("the error of a discriminant is below its bound and the tolerance", "[
     CAPTURE(points.delta[l], points.epsilon[l]);
     const double error = true_error(points, l, box.order);
     CHECK(error <= points.error[l]);
+    if (error > 0.0) check_within("true error of D in a batch over its bound", error / points.error[l], 1.0);
     if (tolerance > 1e-11 || box.high <= 5.0) CHECK(points.error[l] <= tolerance);  // else rounding is left
     close += points.error[l] <= 100.0 * std::max(error, 1e-15);
   }

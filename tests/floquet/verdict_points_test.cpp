@@ -6,39 +6,15 @@
 #include <random>
 #include <vector>
 
-#include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/mathieu_edges.hpp"
 #include "support/ratchet.hpp"
 
 using namespace strutt;
 using strutt::test::check_within;
+using strutt::test::MathieuEdges;
 
 namespace {
-
-/// The edges of Mathieu's tongues at one epsilon > 0, ascending: below the first unstable, then by turns.
-class Edges {
- public:
-  Edges(double epsilon, int last) {
-    for (const auto& [order, a, b] : characteristic_values(0, last, 2.0 * epsilon)) {
-      if (b) edges_.push_back({b->value / 4.0, b->error / 4.0});
-      edges_.push_back({a.value / 4.0, a.error / 4.0});
-    }
-  }
-  const CharacteristicValue& operator[](std::size_t k) const { return edges_[k]; }
-  std::size_t size() const { return edges_.size(); }
-  double highest() const { return edges_.back().value - edges_.back().error; }
-
-  /// Nothing is known within the bound of an edge: unresolved.
-  Verdict at(double delta) const {
-    const auto above = std::partition_point(
-        edges_.begin(), edges_.end(), [&](const auto& edge) { return edge.value + edge.error < delta; });
-    if (above == edges_.end() || !(delta < above->value - above->error)) return Verdict::unresolved;
-    return (above - edges_.begin()) % 2 == 1 ? Verdict::stable : Verdict::unstable;
-  }
-
- private:
-  std::vector<CharacteristicValue> edges_;
-};
 
 struct Region {
   double least, most;  // of epsilon
@@ -55,7 +31,7 @@ class RandomPoints {
   double epsilon() { return std::exp(log_epsilon_(random_)); }
 
   /// One in four anywhere, the others at 1e-16 to 1 of max(1, |delta|) beside an edge, on either side.
-  double delta(const Edges& edges, double epsilon) {
+  double delta(const MathieuEdges& edges, double epsilon) {
     if (unit_(random_) < 0.25) return std::lerp(-epsilon - 1.0, edges.highest(), unit_(random_));
     const double edge = edges[random_() % (edges.size() - 1)].value;
     const double distance = std::pow(10.0, -16.0 * unit_(random_)) * std::max(1.0, std::abs(edge));
@@ -155,7 +131,7 @@ TEST_CASE("no wrong verdict among a million points beside the edges and no bound
   double largest = 0.0;
   for (int column = 0; column < 500; ++column) {
     const double epsilon = points.epsilon();
-    const Edges edges(epsilon, region.last);
+    const MathieuEdges edges(epsilon, region.last);
     std::vector<double> delta(1000);
     std::generate(delta.begin(), delta.end(), [&] { return points.delta(edges, epsilon); });
     const auto found = verdicts(engine, delta, epsilon, {.tolerance = 1e-12, .method = Method::propagator});
@@ -177,7 +153,7 @@ TEST_CASE("strong excitation: no wrong verdict where solutions grow and shrink b
   Tally tally;
   for (int column = 0; column < 100; ++column) {
     const double epsilon = points.epsilon();
-    const Edges edges(epsilon, region.last);
+    const MathieuEdges edges(epsilon, region.last);
     std::vector<double> delta(200);
     std::generate(delta.begin(), delta.end(), [&] { return points.delta(edges, epsilon); });
     const auto found = verdicts(engine, delta, epsilon, {.tolerance = 1e-9, .method = Method::propagator});
@@ -188,7 +164,7 @@ TEST_CASE("strong excitation: no wrong verdict where solutions grow and shrink b
   check_within("N15 share of points next to an edge left unresolved", tally.open_share(), 0.5);
 }
 
-TEST_CASE("a tolerance that is too loose leaves points open; it never turns one",
+TEST_CASE("a tolerance that is too loose leaves points open and never turns one",
           "[floquet][verdict][extreme][N18]") {
   const Region region{0.1, 3.0, 6, 4};
   const auto method = GENERATE(Method::propagator, Method::arkode, Method::cvode);
@@ -197,7 +173,7 @@ TEST_CASE("a tolerance that is too loose leaves points open; it never turns one"
   Tally tally;
   for (int column = 0; column < 20; ++column) {
     const double epsilon = points.epsilon();
-    const Edges edges(epsilon, region.last);
+    const MathieuEdges edges(epsilon, region.last);
     std::vector<double> delta(20);
     std::generate(delta.begin(), delta.end(), [&] { return points.delta(edges, epsilon); });
     const auto found = verdicts(engine, delta, epsilon, {.tolerance = 1e-2, .method = method});
