@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "strutt/base/floating_point.hpp"
+
 #ifdef __SANITIZE_THREAD__
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
@@ -74,6 +76,7 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
                   const std::function<void(std::size_t, int)>& body) {
   std::atomic<std::size_t> done{0};
   const Work run = [&](std::size_t first, std::size_t last, int slot) {
+    const DefaultFloatingPoint environment;  // the threads of TBB have what they were started with
     for (std::size_t index = first; index < last && !is_cancelled(options); ++index) {
       body(index, slot);
       done.fetch_add(1, std::memory_order_relaxed);

@@ -10,6 +10,7 @@
 
 #include "chart/cell_engine.hpp"
 #include "chart/surrogate_cells.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/base/parallel.hpp"
 
 namespace strutt {
@@ -123,6 +124,7 @@ class PointByPoint {
 
 ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, const StripSink& sink,
                            const ProgressSink& progress) {
+  const DefaultFloatingPoint environment;
   const ChartPlan plan = plan_chart(scene, request);
   const std::size_t nx = request.x.points, ny = request.y.points;
   ChartSummary summary;

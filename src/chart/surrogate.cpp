@@ -9,6 +9,7 @@
 #include "chart/surrogate_build.hpp"
 #include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -49,6 +50,7 @@ std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y)
 }
 
 Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options) {
+  const DefaultFloatingPoint environment;
   x.validate("x");
   y.validate("y");
   MonodromyOptions{.tolerance = options.tolerance}.validate();
@@ -96,6 +98,7 @@ std::optional<Surrogate::Point> Surrogate::point_at(double x, double y) const {
 }
 
 std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const {
+  const DefaultFloatingPoint environment;
   const auto point = point_at(x, y);
   if (!point || !hill_equation_of(point->model)) return std::nullopt;
   const auto scale = point_equation(point->model, data_.even_phase);
@@ -107,6 +110,7 @@ std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const
 }
 
 std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
+  const DefaultFloatingPoint environment;
   const auto point = point_at(x, y);
   if (!point) return std::nullopt;
   if (hill_equation_of(point->model)) {
@@ -121,6 +125,7 @@ std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
 }
 
 std::optional<SurrogateGradient> Surrogate::gradient(double x, double y) const {
+  const DefaultFloatingPoint environment;
   const SurrogateBox* const box = box_at(x, y);
   if (box == nullptr) return std::nullopt;
   const auto place = [&](std::size_t axis, double v) {

@@ -10,6 +10,7 @@
 #include "chart/system_tongues.hpp"
 #include "chart/tongue_on_line.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -91,6 +92,7 @@ int tongue_count(const Scene& scene, const TongueLine& line) {
 }
 
 std::vector<TongueEdge> tongues(const Scene& scene, const TongueLine& line, const TongueOptions& options) {
+  const DefaultFloatingPoint environment;
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.count >= 0 && options.count <= kLargestTongue + 1, "count", options.count, "0 to 1001");

@@ -5,6 +5,7 @@
 
 #include "floquet/propagators.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -71,6 +72,7 @@ HillMonodromy MonodromyEngine::compute(const HillEquation& equation, const Monod
 
 std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation> equations,
                                                     const MonodromyOptions& options) {
+  const DefaultFloatingPoint environment;
   options.validate();
   std::vector<HillMonodromy> results(equations.size());
   std::vector<const HillEquation*> smooth;  // those that go side by side
@@ -95,6 +97,7 @@ std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation
 }
 
 Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const MonodromyOptions& options) {
+  const DefaultFloatingPoint environment;
   system.validate();
   options.validate();
   const Method method = method_for(system, options.method);

@@ -7,6 +7,7 @@
 #include "floquet/hill_matrix.hpp"
 #include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -90,6 +91,7 @@ TongueEdges tongue(const FourierExcitation& v, int order) {
 }  // namespace
 
 std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int first, int last) {
+  const DefaultFloatingPoint environment;
   require(first >= 0 && first <= kLargestTongue, "first", first, "0 to 1000");
   require(last >= first && last <= kLargestTongue, "last", last, "first to 1000");
   std::vector<TongueEdges> edges;
@@ -106,6 +108,7 @@ std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int f
 }
 
 CharacteristicValue mean_of_winding(const PeriodicFunction& coefficient, double winding) {
+  const DefaultFloatingPoint environment;
   require(winding > 0.0 && winding < 0.5 * kLargestTongue, "winding", winding, "above 0, below 500");
   require(2.0 * winding != std::floor(2.0 * winding), "winding", winding, "between two multiples of 1/2");
   const FourierExcitation v(coefficient);

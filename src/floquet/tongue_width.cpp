@@ -9,6 +9,7 @@
 #include "floquet/resonant_block.hpp"
 #include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -162,6 +163,7 @@ int common_order(const FourierExcitation& v) {
 
 TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges,
                          double coefficient_error) {
+  const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   if (is_square_wave(coefficient))
     return square_wave_width(coefficient.deviation(), edges, coefficient_error);
@@ -184,6 +186,7 @@ TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges&
 
 double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
                             const TongueWidth& width) {
+  const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   if (width.value == 0.0 || width.relative_error >= 1.0) return 0.0;
   if (is_square_wave(coefficient)) return square_wave_growth(coefficient.deviation(), edges);

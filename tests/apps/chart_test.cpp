@@ -121,7 +121,7 @@ TEST_CASE("numbers in CSV and JSON read back to the bits of the binary file", "[
   }
 }
 
-TEST_CASE("every format has the same bytes for any number of threads", "[apps][chart]") {
+TEST_CASE("every format has the same bytes for any number of threads", "[apps][chart][extreme][N48]") {
   const ScratchDirectory directory;
   for (const std::string ending : {".csv", ".npy", ".npz", ".h5", ".json"}) {
     std::vector<std::string> contents;

@@ -129,7 +129,7 @@ TEST_CASE("one thread is a plain loop on the caller", "[base][threads]") {
   CHECK(std::is_sorted(order.begin(), order.end()));
 }
 
-TEST_CASE("results do not depend on the number of threads", "[base][threads]") {
+TEST_CASE("results do not depend on the number of threads", "[base][threads][extreme][N48]") {
   const auto compute = [](int threads) {
     std::vector<double> result(kCount);
     const ParallelOptions options{.threads = threads};

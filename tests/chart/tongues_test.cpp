@@ -5,6 +5,7 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test {
 namespace {
@@ -43,7 +44,7 @@ Scene pendulum_scene(double amplitude, double frequency, Equilibrium about = Equ
 
 }  // namespace
 
-TEST_CASE("along delta the tongues are those of Mathieu's equation", "[chart][tongues]") {
+TEST_CASE("along delta the tongues are those of Mathieu's equation", "[chart][tongues][ratchet]") {
   const double epsilon = 0.5;
   const auto edges = tongues(mathieu_scene(1.0, epsilon), {"mathieu.delta", -1.0, 40.0});
   const auto known = characteristic_values(0, 12, 2.0 * epsilon);
@@ -56,8 +57,9 @@ TEST_CASE("along delta the tongues are those of Mathieu's equation", "[chart][to
     CHECK(low.order == static_cast<int>(n));
     CHECK_FALSE(low.upper);
     CHECK(high.upper);
-    CHECK(std::abs(low.position - known[n].b->value / 4.0) <= 2e-15 * std::abs(low.position));
-    CHECK(std::abs(high.position - known[n].a.value / 4.0) <= 2e-15 * std::abs(high.position));
+    for (const auto& [edge, value] : {std::pair{low, known[n].b->value}, {high, known[n].a.value}})
+      check_within("edge of a tongue along a line (relative)", std::abs(edge.position / (value / 4.0) - 1.0),
+                   1e-15);
     CHECK(low.outcome == Outcome::converged);
     CHECK(low.width == high.width);
     CHECK(low.width_relative_error <= 1e-10);
@@ -166,6 +168,26 @@ TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][
   CHECK(edges[1].width < 1e-14);  // the period is 2 pi but for a rounding, and it counts
   CHECK(edges[2].position - edges[1].position <= 1e-12);
   CHECK(edges[1].outcome == Outcome::converged);
+}
+
+TEST_CASE("a tongue that falls between the points of a grid is in the list",
+          "[chart][tongues][extreme][N52]") {
+  // at epsilon = 0.1 tongues 4 and on are narrower than 1e-6: no cell of 1000 is inside one
+  const Scene scene = mathieu_scene(1.0, 0.1);
+  const TongueLine line{"mathieu.delta", 3.5, 13.0};
+  std::vector<LinearModel> cells;
+  for (int k = 0; k < 1000; ++k)
+    cells.emplace_back(mathieu_delta_epsilon(std::lerp(line.from, line.to, (k + 0.5) / 1000.0), 0.1));
+  MonodromyEngine engine;
+  for (const auto& cell : analyse(engine, cells, {.tolerance = 1e-12})) CHECK(cell.verdict == Verdict::stable);
+  const auto edges = tongues(scene, line);
+  REQUIRE(edges.size() == 8);
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    CHECK(edges[k].order == 4 + static_cast<int>(k) / 2);
+    CHECK(edges[k].width > 0.0);
+    CHECK(edges[k].width < 1e-6);
+    CHECK(edges[k].width_relative_error <= 1e-10);
+  }
 }
 
 TEST_CASE("count takes the first tongues, and all are those that the line can meet", "[chart][tongues]") {

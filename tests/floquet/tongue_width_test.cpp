@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "strutt/base/error.hpp"
+#include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
 namespace strutt::test {
@@ -24,18 +25,25 @@ double relative_error(const TongueWidth& width, const Real& truth) {
 }  // namespace
 
 TEST_CASE("widths of Mathieu's tongues have relative accuracy",
-          "[floquet][tongues][reference][extreme][N06]") {
-  int rows = 0;
+          "[floquet][tongues][reference][extreme][N06][ratchet]") {
+  int rows = 0, small = 0;
   for (const auto& row : reference::read("width")) {
     const int order = static_cast<int>(row.input("n"));
     const auto v = cosine(row.input("epsilon"));
     const TongueWidth width = width_of(v, order);
     INFO("n = " << order << ", epsilon = " << row.text("epsilon"));
-    CHECK(width.relative_error <= 1e-11);
-    CHECK(relative_error(width, row.result("width")) <= width.relative_error);
+    const double error = relative_error(width, row.result("width"));
+    CHECK(error <= width.relative_error);
+    check_within("N06 bound of a width (relative)", width.relative_error, kWidthAccuracy);
+    check_within("N06 error of a width (relative)", error, 1.5e-13);
+    if (row.text("epsilon") == "0.01") {
+      check_within("N06 error of a width at epsilon = 0.01 for n = 1 to 12 (relative)", error, 1e-14);
+      ++small;
+    }
     ++rows;
   }
   CHECK(rows == 48);
+  CHECK(small == 12);
 }
 
 TEST_CASE("a width of 1e-295 is as good as any", "[floquet][tongues][extreme][N06]") {
