@@ -88,10 +88,7 @@ class HillSlopes {
     if (!has_value()) return;
     kappa_ = m.kappa;
     gap_ = discriminant_gap(m);
-    const bool steps = w.is_piecewise_constant() && by_.coefficient.is_piecewise_constant();
-    const bool smooth = w.is_constant() && by_.coefficient.is_constant();
-    v_ = steps && !smooth ? square_variation(w, by_.coefficient)
-                          : smooth_variation(engine, w, by_.coefficient, options);
+    v_ = hill_variation(engine, w, by_.coefficient, options);
     outcome_ = v_.outcome;
     if (!has_value()) return;
     half_ = m.half;
@@ -234,6 +231,13 @@ class HillSlopes {
 };
 
 }  // namespace
+
+HillVariation hill_variation(MonodromyEngine& engine, const PeriodicFunction& w, const PeriodicFunction& dw,
+                             const MonodromyOptions& options) {
+  const bool steps = w.is_piecewise_constant() && dw.is_piecewise_constant();
+  const bool smooth = w.is_constant() && dw.is_constant();
+  return steps && !smooth ? square_variation(w, dw) : smooth_variation(engine, w, dw, options);
+}
 
 Sensitivity hill_sensitivity(MonodromyEngine& engine, const HillEquation& equation,
                              const HillDerivative& derivative, const MonodromyOptions& options) {

@@ -22,7 +22,11 @@ struct HillVariation {
   Outcome outcome = Outcome::failed;
 };
 
-/// Of Y'' + W Y = 0 with W piecewise constant, in closed form.
+/// Of Y'' + W Y = 0 in the direction dW of its coefficient.
+HillVariation hill_variation(MonodromyEngine& engine, const PeriodicFunction& w, const PeriodicFunction& dw,
+                             const MonodromyOptions& options);
+
+/// The same with both piecewise constant, in closed form.
 HillVariation square_variation(const PeriodicFunction& w, const PeriodicFunction& dw);
 
 }  // namespace strutt
