@@ -59,6 +59,10 @@ struct TonguesArguments : CommonArguments {
   bool growth = false;
 };
 
+struct MarginArguments : CommonArguments {
+  std::optional<std::string> parameters;
+};
+
 struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not given
   std::optional<std::string> amplitude;
   std::optional<std::string> from_top;
@@ -92,6 +96,6 @@ struct Information {
 using Arguments =
     std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
                  PortraitArguments, NormalFormArguments, CharacteristicArguments,
-                 TonguesArguments, TradeoffArguments>;
+                 TonguesArguments, MarginArguments, TradeoffArguments>;
 
 }  // namespace strutt::app

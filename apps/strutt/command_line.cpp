@@ -182,6 +182,19 @@ CLI::App* add_tongues(CLI::App& app, TonguesArguments& arguments) {
   return command;
 }
 
+CLI::App* add_margin(CLI::App& app, MarginArguments& arguments) {
+  auto* command = app.add_subcommand("margin", "distance from a design to the nearest edges of stability");
+  add_scene(*command, arguments);
+  add_common(*command, arguments, "largest error of an edge relative to max(1, |edge|)", "no other",
+             "1e-13 to 1e-2 (default 1e-12)");
+  command
+      ->add_option("--parameters", arguments.parameters,
+                   "parameters that change, one by one and jointly (default: all that move the stability)")
+      ->type_name("P,Q,...");
+  command->footer(std::string(kMarginExample) + kExitCodes);
+  return command;
+}
+
 CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   auto* command = app.add_subcommand("period", "period of the free pendulum at an amplitude");
   command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
@@ -273,6 +286,7 @@ Arguments parse_command_line(int argc, const char* const* argv) {
   TradeoffArguments tradeoff;
   CharacteristicArguments characteristic;
   TonguesArguments tongues;
+  MarginArguments margin;
   const std::vector<Command> commands{command(add_chart, app, chart),
                                       command(add_stability, app, stability),
                                       command(add_motion, app, motion),
@@ -281,6 +295,7 @@ Arguments parse_command_line(int argc, const char* const* argv) {
                                       command(add_normal_form, app, normal_form),
                                       command(add_characteristic, app, characteristic),
                                       command(add_tongues, app, tongues),
+                                      command(add_margin, app, margin),
                                       command(add_tradeoff, app, tradeoff)};
 
   const auto chosen = [&]() -> const CLI::App* {

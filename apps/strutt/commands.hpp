@@ -11,6 +11,7 @@ ExitCode run(const StabilityArguments& arguments);
 ExitCode run(const MotionArguments& arguments);
 ExitCode run(const CharacteristicArguments& arguments);
 ExitCode run(const TonguesArguments& arguments);
+ExitCode run(const MarginArguments& arguments);
 ExitCode run(const PeriodArguments& arguments);
 ExitCode run(const NormalFormArguments& arguments);
 ExitCode run(const PortraitArguments& arguments);

@@ -44,6 +44,12 @@ Example:
   strutt tongues scene.toml --along mathieu.delta=-1:40
 )";
 
+inline constexpr const char* kMarginExample = R"(
+Example:
+  printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n' > scene.toml
+  strutt margin scene.toml --parameters support.frequency,support.amplitude
+)";
+
 inline constexpr const char* kCharacteristicExample = R"(
 Example:
   strutt characteristic --order 0:10 --q 5,-5

@@ -69,7 +69,7 @@ std::optional<double> LinearPeriodicSystem::proportional_damping() const {
   Eigen::Index row = 0, column = 0;
   mass.cwiseAbs().maxCoeff(&row, &column);
   const double c = damping.mean(row, column) / mass(row, column);
-  if (damping.mean == c * mass) return c;
+  if (mass.rows() == 1 || damping.mean == c * mass) return c;  // c * mass may be off by a rounding
   return std::nullopt;
 }
 

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands.hpp"
+#include "rows.hpp"
+#include "scene_arguments.hpp"
+#include "signals.hpp"
+#include "strutt/base/error.hpp"
+#include "strutt/base/parallel.hpp"
+#include "strutt/chart/stability_margin.hpp"
+#include "terminal.hpp"
+
+namespace strutt::app {
+namespace {
+
+std::vector<std::string> parameters_of(const MarginArguments& arguments, const Scene& scene) {
+  if (!arguments.parameters) return stability_parameters(scene);
+  const auto names = split(*arguments.parameters, ',');
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    try {
+      parameter_info(scene, names[i]);
+    } catch (const InvalidInput& error) {
+      throw UsageError("--parameters: " + std::string(error.what()));
+    }
+    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
+        names.begin() + static_cast<std::ptrdiff_t>(i))
+      throw UsageError("--parameters: '" + names[i] + "' is given twice");
+  }
+  return names;
+}
+
+Cell number(double x) { return std::isnan(x) ? Cell() : Cell(x); }
+Cell number(const std::optional<double>& x) { return x ? Cell(*x) : Cell(); }
+Cell number(const std::optional<int>& x) { return x ? Cell(static_cast<double>(*x)) : Cell(); }
+Cell word(Method method) { return std::string(to_string(method)); }
+
+/// What is known of a row without an edge within reach: only that.
+template <typename Row>
+bool has_edge(const Row& row) {
+  return std::isfinite(row.distance);
+}
+
+std::vector<Cell> cells_of(const ParameterMargin& row) {
+  const bool edge = has_edge(row);
+  return {row.parameter,
+          row.value,
+          number(row.lower_edge),
+          number(row.upper_edge),
+          row.distance,
+          number(row.relative_distance),
+          number(row.tongue),
+          edge ? Cell(row.error) : Cell(),
+          edge ? word(row.method) : Cell()};
+}
+
+std::vector<Cell> cells_of(const JointMargin& joint) {
+  const bool edge = has_edge(joint);
+  return {std::string("joint"),
+          {},
+          {},
+          {},
+          joint.distance,
+          joint.distance,
+          number(joint.tongue),
+          edge ? Cell(joint.error) : Cell(),
+          edge ? word(joint.method) : Cell()};
+}
+
+std::vector<Column> columns() {
+  // the unit of a number is that of its row's parameter
+  return {{"parameter", ""},  {"value", ""},    {"lower_edge", ""},
+          {"upper_edge", ""}, {"distance", ""}, {"relative_distance", "1"},
+          {"tongue", "1"},    {"error", "1"},   {"method", ""}};
+}
+
+bool converged(const StabilityMargin& margin) {
+  return margin.joint.outcome == Outcome::converged &&
+         std::ranges::all_of(margin.parameters,
+                             [](const auto& row) { return row.outcome == Outcome::converged; });
+}
+
+}  // namespace
+
+ExitCode run(const MarginArguments& arguments) {
+  method_of(arguments, "margin", {});
+  const SceneFile scene = load_scene(arguments);
+  MarginOptions options{.threads = threads_of(arguments), .cancel = &cancel_flag()};
+  options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
+  const auto parameters = parameters_of(arguments, scene.scene);
+  if (arguments.dry_run) {
+    print_plan(scene, {fmt::format("parameters: {}", fmt::join(parameters, ", ")), "method: auto",
+                       "tolerance: " + to_text(options.tolerance),
+                       fmt::format("threads: {}", thread_count({.threads = options.threads}))});
+    return ExitCode::done;
+  }
+  warn_about(arguments, scene.scene);
+  install_signal_handlers();
+  const StabilityMargin margin = stability_margin(scene.scene, parameters, options);
+  throw_if_interrupted();
+  RowWriter writer(row_path(arguments), arguments.json, columns(),
+                   provenance_of(arguments, scene, Method::automatic, options.tolerance));
+  for (const ParameterMargin& row : margin.parameters) writer.write(cells_of(row));
+  writer.write(cells_of(margin.joint));
+  writer.commit();
+  return converged(margin) ? ExitCode::done : ExitCode::unresolved;
+}
+
+}  // namespace strutt::app

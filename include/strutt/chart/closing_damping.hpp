@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "strutt/base/method.hpp"
+#include "strutt/chart/tongues.hpp"
+
+namespace strutt {
+
+/// The damping that closes a tongue on a line.
+struct ClosingDamping {
+  int tongue = 0;
+  int crossing = 0;       ///< which time the line meets this tongue, from 0
+  double damping = 0.0;   ///< c of x'' + c x' + ...: with less, somewhere on the line the tongue is open
+  double error = 0.0;     ///< bound of the relative error of `damping`, as far as the growth is known
+  double position = 0.0;  ///< of the parameter where the tongue stays open longest: its tip
+  Method method = Method::propagator;
+  Outcome outcome = Outcome::converged;
+};
+
+/// For each tongue n >= 1 both edges of which lie on the line: the largest c at which some point of it is
+/// marginal, whatever damping the scene has. With c the multipliers of the undamped Y'' + (W - (c/Omega)^2/4)
+/// Y = 0 are divided by exp(cT/2); the point is marginal where growth = cT/2. That root is found at each
+/// point, and its largest value by Brent's method; beside a maximum its error is that of the growth. Tongues
+/// narrower than 1e-9 of their position:
+///   c = 2 growth/T
+/// with the growth of the undamped tongue in its middle (narrow_tongue_growth), right to about the width of
+/// the tongue. No damping closes tongue 0. `options` as of tongues(), whose `count` counts tongue 0. Throws
+/// as tongues(), and for a line along the damping.
+std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine& line,
+                                            const TongueOptions& options = {});
+
+}  // namespace strutt

@@ -1,0 +1,173 @@
+#include "chart/edge_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "chart/unstable_intervals.hpp"
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/tongue_edges.hpp"
+#include "strutt/floquet/tongue_width.hpp"
+
+namespace strutt {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kSharp = 1e-5;  // relative error of a gradient that is worth using
+
+double sum_of_amplitudes(const PeriodicFunction& f) {
+  double sum = 0.0;
+  for (const Harmonic& h : f.harmonics()) sum += std::abs(h.cosine) + std::abs(h.sine);
+  return sum;
+}
+
+/// The mean on the edge. Of one harmonic by Mathieu's equation, delta = a/4 at q = 2 epsilon: the bound is
+/// sharper.
+CharacteristicValue mean_on_edge(const HillEquation& equation, const EdgeSurface::Edge& edge) {
+  const auto harmonics = equation.coefficient.harmonics();
+  if (harmonics.size() == 1 && harmonics.front().order == 1) {
+    const double epsilon = equation.epsilon();
+    const auto pair = characteristic_values(edge.tongue, edge.tongue, 2.0 * epsilon).front();
+    const CharacteristicValue& x = edge.upper ? pair.a : *pair.b;
+    return {0.25 * x.value, 0.25 * x.error + 2.0 * kUnit * epsilon};
+  }
+  const TongueEdges edges = tongue_edges(equation.coefficient, edge.tongue, edge.tongue).front();
+  return edge.upper ? edges.upper : *edges.lower;
+}
+
+/// sign (mean - edge), and what is not known of it.
+Margin edge_distance(const HillEquation& equation, const EdgeSurface::Edge& edge) {
+  const double mean = equation.coefficient.mean();
+  const CharacteristicValue at = mean_on_edge(equation, edge);
+  const double inputs =
+      (equation.coefficient_error + kUnit) * (std::abs(mean) + sum_of_amplitudes(equation.coefficient));
+  return {edge.sign * (mean - at.value), at.error + inputs};
+}
+
+}  // namespace
+
+std::vector<EdgeSurface::Edge> bounding_edges(const Scene& scene, bool stable) {
+  const LinearModel model = linear_model(scene);
+  const auto* equation = std::get_if<HillEquation>(&model);
+  const bool fourier = equation != nullptr && equation->damping == 0.0 &&
+                       (equation->coefficient.is_constant() || !equation->coefficient.harmonics().empty());
+  if (!fourier) return {};
+  MonodromyEngine engine;
+  const double winding = analyse(engine, model, sharpest()).winding;
+  if (stable) {
+    const int below = static_cast<int>(std::floor(2.0 * winding));
+    if (below + 1 > kLargestTongue) return {};
+    return {{below, true, 1.0}, {below + 1, false, -1.0}};
+  }
+  const int own = static_cast<int>(std::lround(2.0 * winding));
+  if (own > kLargestTongue) return {};
+  if (own == 0) return {{0, true, -1.0}};
+  return {{own, true, -1.0}, {own, false, 1.0}};
+}
+
+EdgeSurface::EdgeSurface(const Scene& scene, const std::vector<std::string>& parameters,
+                         std::optional<Edge> edge, double margin_sign)
+    : scene_(scene), parameters_(parameters), edge_(edge), margin_sign_(margin_sign) {
+  for (const std::string& path : parameters_) {
+    pointers_.push_back(&parameter(scene_, path));
+    value_.push_back(*pointers_.back());
+  }
+}
+
+void EdgeSurface::set(const std::vector<double>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) *pointers_[i] = value_[i] * x[i];
+}
+
+std::vector<double> EdgeSurface::values(const std::vector<double>& x) const {
+  std::vector<double> result(x.size());
+  std::ranges::transform(value_, x, result.begin(), std::multiplies<>());
+  return result;
+}
+
+Margin EdgeSurface::at(const std::vector<double>& x) {
+  set(x);
+  try {
+    validate(scene_);
+    const LinearModel model = linear_model(scene_);
+    if (edge_) return edge_distance(std::get<HillEquation>(model), *edge_);
+    const Stability s = analyse(engine_, model, sharpest(), {.winding = false, .matrix = false});
+    method_ = s.method;
+    return {margin_sign_ * s.margin, s.margin_error};
+  } catch (const InvalidInput&) {
+    return {NAN, NAN};
+  }
+}
+
+std::optional<EdgeSurface::Edge> EdgeSurface::behind_closed(const std::vector<double>& x) {
+  if (!edge_ || edge_->tongue == 0) return std::nullopt;
+  set(x);
+  const auto w = std::get<HillEquation>(linear_model(scene_)).coefficient, v = w.plus(-w.mean());
+  const TongueWidth width = tongue_width(v, tongue_edges(v, edge_->tongue, edge_->tongue).front());
+  const bool closed = width.value == 0.0 || width.relative_error >= 1.0;
+  if (!closed) return std::nullopt;
+  const int next = edge_->upper ? edge_->tongue - 1 : edge_->tongue + 1;
+  if (next > kLargestTongue) return std::nullopt;
+  return Edge{next, edge_->upper, edge_->sign};
+}
+
+std::optional<int> EdgeSurface::tongue(const std::vector<double>& x) {
+  if (edge_) return edge_->tongue;
+  set(x);
+  const double winding = analyse(engine_, linear_model(scene_), sharpest()).winding;
+  if (std::isnan(winding)) return std::nullopt;
+  return static_cast<int>(std::lround(2.0 * winding));
+}
+
+std::vector<double> EdgeSurface::exact_gradient() {
+  std::vector<double> result;
+  double error = 0.0;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Derivative rate = sensitivity(engine_, scene_, parameters_[i]).edge;
+    result.push_back(rate.value * value_[i]);
+    error += std::abs(rate.error * value_[i]);
+  }
+  const double size = std::sqrt(std::inner_product(result.begin(), result.end(), result.begin(), 0.0));
+  if (!(error <= kSharp * size)) return {};
+  return result;
+}
+
+/// How far the surface moves along the ray when one coordinate moves: F is not smooth where multipliers of
+/// systems collide, the surface is.
+std::vector<double> EdgeSurface::difference_gradient(const std::vector<double>& x,
+                                                     const std::vector<double>& ray) {
+  constexpr double kStep = 1e-5;
+  const auto inside = [&](const std::vector<double>& at) { return this->at(at).value > 0.0; };
+  const auto moved = [&](std::size_t i, double step) {
+    std::vector<double> from = x;
+    from[i] += step;
+    const auto along = [&](double s) {
+      std::vector<double> y = from;
+      for (std::size_t k = 0; k < y.size(); ++k) y[k] += s * ray[k];
+      return y;
+    };
+    double low = -8.0 * kStep, high = 8.0 * kStep;
+    for (int doubling = 0; doubling < 12 && !inside(along(low)); ++doubling) low *= 2.0;
+    for (int doubling = 0; doubling < 12 && inside(along(high)); ++doubling) high *= 2.0;
+    for (int halving = 0; halving < 40; ++halving)
+      (inside(along(0.5 * (low + high))) ? low : high) = 0.5 * (low + high);
+    return 0.5 * (low + high);
+  };
+  std::vector<double> result;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    result.push_back((moved(i, kStep) - moved(i, -kStep)) / (2.0 * kStep));
+  return result;
+}
+
+std::vector<double> EdgeSurface::normal(const std::vector<double>& x, const std::vector<double>& ray) {
+  set(x);
+  std::vector<double> gradient = exact_gradient();
+  if (gradient.empty()) gradient = difference_gradient(x, ray);
+  const double length =
+      std::sqrt(std::inner_product(gradient.begin(), gradient.end(), gradient.begin(), 0.0));
+  if (!(length > 0.0) || !std::isfinite(length)) return {};
+  const double along = std::inner_product(gradient.begin(), gradient.end(), ray.begin(), 0.0);
+  for (double& g : gradient) g /= std::copysign(length, along);
+  return gradient;
+}
+
+}  // namespace strutt

@@ -1,0 +1,204 @@
+#include "chart/unstable_intervals.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+
+#include "strutt/base/error.hpp"
+
+namespace strutt {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+/// tongues() before and after it told its method.
+template <typename Edge>
+Method method_of(const Edge& edge) {
+  if constexpr (requires { edge.method; }) {
+    return edge.method;
+  } else {
+    return Method::fourier;
+  }
+}
+
+std::vector<UnstableInterval> proved_intervals(const Scene& scene, const TongueLine& line,
+                                               const IntervalOptions& options) {
+  std::vector<UnstableInterval> result;
+  int order = -1, crossing = -1;
+  for (const TongueEdge& edge :
+       tongues(scene, line, {.tolerance = options.tolerance, .cancel = options.cancel})) {
+    if (edge.width == 0.0 || edge.width_relative_error >= 1.0) continue;  // closed
+    if (result.empty() || edge.order != order || edge.crossing != crossing)
+      result.push_back({.tongue = edge.order, .begin = {}, .end = {}});
+    order = edge.order;
+    crossing = edge.crossing;
+    (edge.upper ? result.back().end : result.back().begin) =
+        LineEdge{edge.position, edge.error, method_of(edge), edge.outcome};
+  }
+  return result;
+}
+
+/// The sign of the margin at points of the line.
+class MarginScan {
+ public:
+  MarginScan(const Scene& scene, const TongueLine& line, const IntervalOptions& options)
+      : line_(scene, line.parameter), from_(line.from), to_(line.to), options_(options) {}
+
+  std::vector<UnstableInterval> intervals() {
+    sample();
+    std::vector<UnstableInterval> result;
+    if (unstable_.front()) result.push_back({});
+    for (std::size_t i = 0; i + 1 < places_.size() && !cancelled(); ++i) {
+      if (unstable_[i] == unstable_[i + 1]) continue;
+      const LineEdge edge = enclosed(places_[i], places_[i + 1]);
+      if (unstable_[i + 1]) {
+        result.push_back({.tongue = kNoTongue, .begin = edge, .end = {}});
+      } else {
+        result.back().end = edge;
+      }
+    }
+    for (UnstableInterval& interval : result) interval.tongue = tongue_of(interval);
+    return result;
+  }
+
+ private:
+  bool cancelled() const { return options_.cancel != nullptr && *options_.cancel; }
+  double margin(double p) { return line_.at(p).margin; }
+  static bool is_unstable(const Stability& s) { return s.verdict == Verdict::unstable; }
+
+  void sample() {
+    for (int i = 0; i <= options_.samples; ++i)
+      places_.push_back(
+          i == options_.samples ? to_ : std::lerp(from_, to_, static_cast<double>(i) / options_.samples));
+    std::vector<double> margins;
+    for (const Stability& s : line_.at(places_)) {
+      unstable_.push_back(is_unstable(s));
+      margins.push_back(s.margin);
+    }
+    add_extrema(margins);
+  }
+
+  /// Points between the samples at which a dip of the margin below 0, or a rise above it, is deepest.
+  void add_extrema(const std::vector<double>& margins) {
+    std::vector<double> found;
+    for (std::size_t i = 1; i + 1 < margins.size() && !cancelled(); ++i) {
+      if (unstable_[i - 1] != unstable_[i] || unstable_[i] != unstable_[i + 1]) continue;
+      const double sign = unstable_[i] ? -1.0 : 1.0;
+      const bool extreme =
+          sign * margins[i] < sign * margins[i - 1] && sign * margins[i] <= sign * margins[i + 1];
+      if (!extreme) continue;
+      const double a = places_[i - 1], b = places_[i + 1];  // Brent's tolerance is one of the variable
+      const auto [share, least] = boost::math::tools::brent_find_minima(
+          [&](double x) { return sign * margin(std::lerp(a, b, x)); }, 0.0, 1.0, 26);
+      const double place = std::lerp(a, b, share);
+      if (least < 0.0 && is_unstable(line_.at(place)) != unstable_[i]) found.push_back(place);
+    }
+    for (const double place : found) {
+      const auto at = std::ranges::lower_bound(places_, place);
+      unstable_.insert(unstable_.begin() + (at - places_.begin()), is_unstable(line_.at(place)));
+      places_.insert(at, place);
+    }
+  }
+
+  /// The change of verdict between a and b, and how far on either side the verdict is certain.
+  LineEdge enclosed(double a, double b) {
+    const bool unstable_before = is_unstable(line_.at(a));
+    const auto side = [&](double p) { return is_unstable(line_.at(p)) == unstable_before ? 1.0 : -1.0; };
+    const auto smooth = [&](double p) {  // the margin where its sign agrees with the side, for faster steps
+      const double m = margin(p) * (unstable_before ? -1.0 : 1.0);
+      return (m > 0.0) == (side(p) > 0.0) && m != 0.0 && std::isfinite(m) ? m : side(p) * 1e-18;
+    };
+    std::uintmax_t steps = 100;
+    const auto close = [](double x, double y) { return std::abs(y - x) <= 2.0 * kUnit * std::abs(x + y); };
+    const auto [low, high] =
+        boost::math::tools::toms748_solve(smooth, a, b, smooth(a), smooth(b), close, steps);
+    const double position = 0.5 * (low + high);
+    // beyond a and b: one of them may be just where the line touches the other side
+    const double before = certain(position, std::max(from_, 2.0 * a - b), unstable_before),
+                 after = certain(position, std::min(to_, 2.0 * b - a), !unstable_before);
+    LineEdge edge{
+        .position = position,
+        .error = (std::max(before, after) + kUnit * std::abs(position)) / std::max(1.0, std::abs(position)),
+        .method = line_.at(position).method};
+    if (!(edge.error <= options_.tolerance)) edge.outcome = Outcome::tolerance_not_reached;
+    return edge;
+  }
+
+  /// The distance from `place` towards `end` at which the verdict is the wanted one. Where it is uncertain
+  /// first and then the other up to the end, the line only touches the wanted side, in what is uncertain.
+  double certain(double place, double end, bool unstable) {
+    const Verdict wanted = unstable ? Verdict::unstable : Verdict::stable;
+    const double most = std::abs(end - place);
+    double uncertain = HUGE_VAL, step = 4.0 * kUnit * std::max(std::abs(place), 1e-3 * most);
+    for (; step < 2.0 * most; step *= 2.0) {
+      const Verdict found = line_.at(place + std::copysign(step, end - place)).verdict;
+      if (found == wanted) return step;
+      if (found == Verdict::unresolved) uncertain = step;
+    }
+    return 4.0 * uncertain < step ? 2.0 * uncertain : HUGE_VAL;
+  }
+
+  int tongue_of(const UnstableInterval& interval) {
+    const double a = interval.begin ? interval.begin->position : from_,
+                 b = interval.end ? interval.end->position : to_;
+    const double winding = line_.at(0.5 * (a + b), true).winding;
+    return std::isnan(winding) ? kNoTongue : static_cast<int>(std::lround(2.0 * winding));
+  }
+
+  MarginLine line_;
+  double from_, to_;
+  const IntervalOptions& options_;
+  std::vector<double> places_;
+  std::vector<bool> unstable_;
+};
+
+bool is_proved(const Scene& scene, const TongueLine& line) {
+  if (scene.linear) return false;
+  try {
+    require_tongue_line(scene, line);
+    tongue_count(scene, line);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+std::vector<UnstableInterval> intervals_of(const Scene& scene, const TongueLine& line,
+                                           const IntervalOptions& options) {
+  try {
+    if (is_proved(scene, line)) return proved_intervals(scene, line, options);
+  } catch (const NumericalFailure&) {  // the line touches an edge, as at the tip of a tongue
+  }
+  return MarginScan(scene, line, options).intervals();
+}
+
+}  // namespace
+
+MonodromyOptions sharpest() { return {.tolerance = 1e-13}; }
+
+Stability MarginLine::at(double p, bool winding) {
+  *value_ = p;
+  return analyse(engine_, linear_model(scene_), sharpest(), {.winding = winding, .matrix = false});
+}
+
+std::vector<Stability> MarginLine::at(const std::vector<double>& p) {
+  std::vector<LinearModel> models;
+  for (const double value : p) {
+    *value_ = value;
+    models.push_back(linear_model(scene_));
+  }
+  return analyse(engine_, models, sharpest(), {.winding = false, .matrix = false});
+}
+
+std::vector<UnstableInterval> unstable_intervals(const Scene& scene, const TongueLine& line,
+                                                 const IntervalOptions& options) {
+  auto result = intervals_of(scene, line, options);
+  std::ranges::sort(result, {}, [&](const UnstableInterval& i) {
+    return i.begin ? i.begin->position : i.end ? i.end->position : line.from;
+  });
+  return result;
+}
+
+}  // namespace strutt

@@ -1,0 +1,133 @@
+// The command `strutt margin`: columns, JSON, files, exit codes.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "io/scratch.hpp"
+#include "support/program.hpp"
+
+namespace strutt::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+const char* const kRod = "[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n";
+
+/// A folder with a scene, and the command on it.
+class Command {
+ public:
+  explicit Command(const std::string& scene = kRod) { write("scene.toml", scene); }
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::string path = (directory_.path() / name).string();
+    std::ofstream(path) << text;
+    return path;
+  }
+  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
+  Result run(const Words& more = {}) const {
+    Words words{"margin", path("scene.toml")};
+    words.insert(words.end(), more.begin(), more.end());
+    return strutt(words);
+  }
+
+ private:
+  ScratchDirectory directory_;
+};
+
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+}  // namespace
+
+TEST_CASE("margin writes the rows of the contract", "[apps][margin]") {
+  const Result result = Command().run();
+  CHECK(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[0] == Words{"parameter", "value", "lower_edge", "upper_edge", "distance", "relative_distance",
+                         "tongue", "error", "method"});
+  CHECK(rows[1][0] == "pendulum.length");
+  CHECK(rows[3] == Words{"pendulum.damping", "0", "", "", "inf", "", "", "", ""});
+  CHECK(rows[5][0] == "support.frequency");
+  CHECK(rows[5][1] == "12");
+  CHECK(number(rows[5][2]) == Approx(8.3350255046));
+  CHECK(rows[5][3].empty());
+  CHECK(number(rows[5][4]) == Approx(12.0 - 8.3350255046));
+  CHECK(number(rows[5][5]) == Approx(1.0 - 8.3350255046 / 12.0));
+  CHECK(rows[5][6] == "1");
+  CHECK(number(rows[5][7]) < 1e-14);
+  CHECK(rows[5][8] == "fourier");
+  CHECK(rows[6][0] == "joint");
+  CHECK(rows[6][1].empty());
+  CHECK(rows[6][4] == rows[6][5]);
+  CHECK(number(rows[6][5]) < number(rows[5][5]));
+}
+
+TEST_CASE("margin takes the parameters asked for, in their order", "[apps][margin]") {
+  const auto rows =
+      csv_rows(Command().run({"--parameters", "support.frequency,support.amplitude", "--threads", "1"}).out);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[1][0] == "support.frequency");
+  CHECK(rows[2][0] == "support.amplitude");
+  CHECK(rows[3][0] == "joint");
+}
+
+TEST_CASE("margin writes JSON with null for what there is not", "[apps][margin]") {
+  const Result result = Command().run({"--json", "--set", "support.frequency=2 Hz"});
+  CHECK(result.code == 0);
+  const auto json = nlohmann::json::parse(result.out);
+  const auto& rows = json["rows"];
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[2]["parameter"] == "pendulum.damping");
+  CHECK(rows[2]["distance"] == "inf");
+  CHECK(rows[2]["method"].is_null());
+  CHECK(rows[5]["parameter"] == "joint");
+  CHECK(rows[5]["value"].is_null());
+  CHECK(double(rows[5]["error"]) < 1e-12);
+  CHECK(json["provenance"]["tolerance"] == "1e-12");
+}
+
+TEST_CASE("margin of an unstable design is negative, on the edge 0 and exit code 1 unless it is proved",
+          "[apps][margin]") {
+  const auto rows = csv_rows(Command("[mathieu]\ndelta = 0.27\nepsilon = 0.2\ndamping = 0.1\n").run().out);
+  REQUIRE(rows.size() == 5);
+  for (std::size_t i = 1; i <= 4; ++i) CHECK(number(rows[i][4]) < 0.0);
+  CHECK(rows[3][8] == "propagator");
+  const Result boundary = Command("[mathieu]\ndelta = 0\nepsilon = 0\n").run();
+  CHECK(boundary.code == 0);
+  CHECK(csv_rows(boundary.out)[1][4] == "0");
+  const Result unresolved = Command("[mathieu]\ndelta = 0.4279634012900369\nepsilon = 0.4\n").run();
+  CHECK(unresolved.code == 1);
+  CHECK(csv_rows(unresolved.out)[1][4] == "0");
+}
+
+TEST_CASE("margin names the flag or the scene that is wrong", "[apps][margin]") {
+  const Command command;
+  const Result unknown = command.run({"--parameters", "support.frequncy"});
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.err, Catch::Matchers::Contains("support.frequency"));
+  CHECK(command.run({"--parameters", ""}).code == 2);
+  CHECK(command.run({"--parameters", "support.frequency,support.frequency"}).code == 2);
+  CHECK(command.run({"--tolerance", "1e-14"}).code == 2);
+  CHECK(command.run({"--tolerance", "nan"}).code == 2);
+  CHECK(command.run({"--method", "cvode"}).code == 2);
+  CHECK(command.run({"--set", "support.frequency=nan"}).code == 2);
+  CHECK(command.run({"--set", "support.frequency=0"}).code == 2);
+  CHECK(command.run({"-o", command.path("a.npz")}).code == 2);
+  CHECK(Command("[mathieu]\ndelta = nan\n").run().code == 3);
+  CHECK(Command("[mathieu]\ndetla = 1\n").run().code == 3);
+}
+
+TEST_CASE("margin tells its plan and writes its file", "[apps][margin]") {
+  const Command command;
+  const Result plan = command.run({"--dry-run"});
+  CHECK(plan.code == 0);
+  CHECK_THAT(plan.out, Catch::Matchers::Contains("# parameters: pendulum.length, pendulum.gravity"));
+  CHECK(command.run({"-o", command.path("margin.csv"), "--parameters", "support.frequency"}).code == 0);
+  std::ifstream file(command.path("margin.csv"));
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  CHECK(csv_rows(text).size() == 3);
+  CHECK_THAT(command.run({"--help"}).out, Catch::Matchers::Contains("strutt margin scene.toml"));
+}
+
+}  // namespace strutt::test

@@ -1,0 +1,116 @@
+#include "strutt/chart/closing_damping.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/stability.hpp"
+
+namespace strutt::test {
+namespace {
+
+Scene mathieu_scene(double epsilon, double damping = 0.0) {
+  Scene scene;
+  scene.mathieu = MathieuTable{.delta = 1.0, .epsilon = epsilon, .damping = damping};
+  return scene;
+}
+
+Scene rod(double amplitude) {
+  Scene scene;
+  scene.pendulum = PendulumTable{.length = 1.0};
+  scene.support = SupportTable{.amplitude = amplitude, .frequency = 12.0};
+  return scene;
+}
+
+Stability stability_at(Scene scene, const std::string& path, double value, const std::string& damping,
+                       double c) {
+  static MonodromyEngine engine;
+  parameter(scene, path) = value;
+  parameter(scene, damping) = c;
+  return analyse(engine, linear_model(scene), {.tolerance = 1e-13});
+}
+
+}  // namespace
+
+TEST_CASE("a little less damping leaves the tongue open at its tip, a little more closes it everywhere",
+          "[chart][damping]") {
+  struct Case {
+    Scene scene;
+    TongueLine line;
+    std::string damping;
+  };
+  const std::vector<Case> cases{{mathieu_scene(0.8), {"mathieu.delta", -1.0, 3.0}, "mathieu.damping"},
+                                {rod(0.1), {"support.frequency", 2.3, 30.0}, "pendulum.damping"},
+                                {rod(0.1), {"pendulum.length", 0.05, 30.0}, "pendulum.damping"}};
+  for (const auto& [scene, line, damping] : cases) {
+    CAPTURE(line.parameter);
+    const auto rows = closing_damping(scene, line);
+    const auto edges = tongues(scene, line);
+    REQUIRE(rows.size() >= 2);
+    for (const ClosingDamping& row : rows) {
+      CAPTURE(row.tongue, row.damping);
+      CHECK(row.outcome == Outcome::converged);
+      const auto at = [&](double p, double factor) {
+        return stability_at(scene, line.parameter, p, damping, row.damping * factor);
+      };
+      CHECK(at(row.position, 1.0 - 1e-8).verdict == Verdict::unstable);
+      CHECK(at(row.position, 1.0 + 1e-8).verdict == Verdict::stable);
+      double low = 0.0, high = 0.0;
+      for (const TongueEdge& edge : edges)
+        if (edge.order == row.tongue) (edge.upper ? high : low) = edge.position;
+      int open = 0;
+      for (int i = 0; i <= 1000; ++i) {
+        const auto found =
+            at(std::lerp(low - 0.2 * (high - low), high + 0.2 * (high - low), i / 1000.0), 1.0 + 1e-8);
+        // another tongue may still be open there
+        if (found.verdict != Verdict::stable && 2.0 * found.winding == row.tongue) ++open;
+      }
+      CHECK(open == 0);
+    }
+  }
+}
+
+TEST_CASE("for weak excitation tongue 1 closes at epsilon and tongue n as its width does",
+          "[chart][damping]") {
+  // x'' + c x' + (1/4 + d + epsilon cos t) x: open for c < epsilon to lowest order
+  const auto rows = closing_damping(mathieu_scene(1e-3), {"mathieu.delta", 0.1, 10.0});
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[0].tongue == 1);
+  CHECK(rows[0].damping == Approx(1e-3).epsilon(1e-5));
+  const auto edges = tongues(mathieu_scene(1e-3), {"mathieu.delta", 0.1, 10.0});
+  for (const ClosingDamping& row : rows) {
+    const double width = edges[2 * static_cast<std::size_t>(row.tongue) - 1].width;
+    CHECK(row.damping == Approx(width / row.tongue).epsilon(2e-5).margin(0.0));  // growth = pi w/n = c T/2
+  }
+  CHECK(rows[5].method == Method::fourier);
+  CHECK(rows[0].method == Method::propagator);
+}
+
+TEST_CASE("narrow and wide tongues agree where one method follows the other", "[chart][damping]") {
+  // tongue 3 is epsilon^3/16 wide, so that it closes at epsilon^3/48: 1e-9 of its position at epsilon =
+  // 0.0033
+  const auto third = [](double epsilon) {
+    return closing_damping(mathieu_scene(epsilon), {"mathieu.delta", 2.0, 2.5}).front();
+  };
+  const ClosingDamping narrow = third(0.0032), wide = third(0.0034);
+  REQUIRE(narrow.method == Method::fourier);
+  REQUIRE(wide.method == Method::propagator);
+  CHECK(std::abs(48.0 * narrow.damping / std::pow(0.0032, 3) - 1.0) <= narrow.error + 1e-5);
+  CHECK(std::abs(48.0 * wide.damping / std::pow(0.0034, 3) - 1.0) <= 2e-5);
+  CHECK(wide.error <= 1e-4);
+}
+
+TEST_CASE("the damping of the scene does not count, and what has none is refused", "[chart][damping]") {
+  const TongueLine line{"mathieu.delta", 0.0, 2.0};
+  const auto free = closing_damping(mathieu_scene(0.5), line),
+             damped = closing_damping(mathieu_scene(0.5, 0.3), line);
+  REQUIRE(free.size() == damped.size());
+  CHECK(free[0].damping == damped[0].damping);
+  CHECK_THROWS_AS(closing_damping(mathieu_scene(0.5), {"mathieu.damping", 0.0, 1.0}), InvalidInput);
+  CHECK_THROWS_AS(closing_damping(mathieu_scene(0.5), {"mathieu.delta", 1.0, 0.0}), InvalidInput);
+  Scene linear;
+  linear.linear = LinearPeriodicSystem{};
+  CHECK_THROWS_AS(closing_damping(linear, {"linear.period", 1.0, 2.0}), InvalidInput);
+}
+
+}  // namespace strutt::test

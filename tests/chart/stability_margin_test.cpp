@@ -1,0 +1,228 @@
+#include "strutt/chart/stability_margin.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/characteristic_values.hpp"
+#include "strutt/floquet/stability.hpp"
+
+namespace strutt::test {
+namespace {
+
+Scene mathieu_scene(double delta, double epsilon, double damping = 0.0) {
+  Scene scene;
+  scene.mathieu = MathieuTable{.delta = delta, .epsilon = epsilon, .damping = damping};
+  return scene;
+}
+
+Scene rod(Equilibrium about, double amplitude, double frequency, double damping = 0.0) {
+  Scene scene;
+  scene.pendulum = PendulumTable{.length = 1.0, .damping = damping, .about = about};
+  scene.support = SupportTable{.amplitude = amplitude, .frequency = frequency};
+  return scene;
+}
+
+Scene square_scene(double mean, double amplitude) {
+  Scene scene;
+  scene.hill = HillTable{.waveform = Waveform::square, .period = 6.0, .mean = mean, .amplitude = amplitude};
+  return scene;
+}
+
+Scene coupled_scene(double period, double coupling = -0.3) {
+  Scene scene;
+  LinearPeriodicSystem system;
+  system.period = period;
+  system.mass = Eigen::Matrix2d::Identity();
+  system.stiffness.mean = Eigen::Matrix2d{{1.3, coupling}, {coupling, 2.3}};
+  system.stiffness.harmonics = {{1, Eigen::Matrix2d{{0.4, 0.0}, {0.0, 0.0}}, Eigen::MatrixXd()}};
+  scene.linear = system;
+  return scene;
+}
+
+Verdict verdict_at(Scene scene, const std::vector<std::string>& paths, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < paths.size(); ++i) parameter(scene, paths[i]) = values[i];
+  MonodromyEngine engine;
+  return analyse(engine, linear_model(scene), {.tolerance = 1e-13}).verdict;
+}
+
+Verdict other(Verdict verdict) { return verdict == Verdict::stable ? Verdict::unstable : Verdict::stable; }
+
+/// The designs of the general tests: stable and unstable, damped and not, of every kind.
+std::vector<Scene> designs() {
+  return {mathieu_scene(0.6, 0.4),
+          mathieu_scene(1.4, 0.7, 0.05),
+          mathieu_scene(0.27, 0.2, 0.1),
+          mathieu_scene(-0.2, 0.5),
+          rod(Equilibrium::hanging, 0.05, 12.0),
+          rod(Equilibrium::hanging, 0.05, 12.0, 0.1),
+          rod(Equilibrium::hanging, 0.05, 7.5),
+          rod(Equilibrium::inverted, 0.05, 120.0),
+          rod(Equilibrium::inverted, 0.05, 60.0, 0.5),
+          square_scene(0.8, 0.3),
+          square_scene(0.25, 0.2),
+          coupled_scene(2.2),
+          coupled_scene(3.0)};
+}
+
+}  // namespace
+
+TEST_CASE("the edges of Mathieu's equation along delta are characteristic values", "[chart][margin]") {
+  const auto known = characteristic_values(0, 2, 0.8);
+  const auto margin = stability_margin(mathieu_scene(0.6, 0.4), {"mathieu.delta"});
+  CHECK(margin.verdict == Verdict::stable);
+  const ParameterMargin& row = margin.parameters.front();
+  CHECK(*row.lower_edge == Approx(known[1].a.value / 4.0).epsilon(1e-15));
+  CHECK(*row.upper_edge == Approx(known[2].b->value / 4.0).epsilon(1e-15));
+  CHECK(row.distance == Approx(0.6 - known[1].a.value / 4.0).epsilon(1e-14));
+  CHECK(row.relative_distance == row.distance / 0.6);
+  CHECK(row.tongue == 1);
+  CHECK(row.method == Method::fourier);
+  CHECK(row.outcome == Outcome::converged);
+}
+
+TEST_CASE("an unstable design has a negative distance to stability", "[chart][margin]") {
+  const auto known = characteristic_values(1, 1, 0.8);
+  const auto margin = stability_margin(mathieu_scene(0.3, 0.4), {"mathieu.delta", "mathieu.damping"});
+  CHECK(margin.verdict == Verdict::unstable);
+  const auto& delta = margin.parameters[0];
+  CHECK(*delta.lower_edge == Approx(known[0].b->value / 4.0).epsilon(1e-14));
+  CHECK(*delta.upper_edge == Approx(known[0].a.value / 4.0).epsilon(1e-14));
+  CHECK(delta.distance < 0.0);
+  CHECK(delta.tongue == 1);
+  const auto& damping = margin.parameters[1];
+  CHECK_FALSE(damping.lower_edge);
+  CHECK(damping.distance == -*damping.upper_edge);  // that much damping stabilises it
+  CHECK(std::isnan(damping.relative_distance));
+  CHECK(verdict_at(mathieu_scene(0.3, 0.4), {"mathieu.damping"}, {*damping.upper_edge * (1 + 1e-9)}) ==
+        Verdict::stable);
+  CHECK(margin.joint.distance < 0.0);
+}
+
+TEST_CASE("each edge parts verdicts, and none is between it and the design", "[chart][margin]") {
+  for (const Scene& scene : designs()) {
+    const auto margin = stability_margin(scene, stability_parameters(scene),
+                                         {.tolerance = scene.linear ? 1e-10 : 1e-12, .reach = 10.0});
+    for (const ParameterMargin& row : margin.parameters) {
+      CAPTURE(describe(scene), row.parameter, row.value);
+      CHECK(row.outcome == Outcome::converged);
+      for (const auto& edge : {row.lower_edge, row.upper_edge}) {
+        if (!edge) continue;
+        const double off =
+            2.0 * row.error * std::max(1.0, std::abs(*edge)) + 1e-9 * std::abs(*edge - row.value);
+        const double side = std::copysign(off, row.value - *edge);
+        CHECK(verdict_at(scene, {row.parameter}, {*edge + side}) == margin.verdict);
+        CHECK(verdict_at(scene, {row.parameter}, {*edge - side}) == other(margin.verdict));
+        for (int i = 1; i < 20; ++i) {
+          const double between = std::lerp(row.value, *edge, i / 20.0);
+          CHECK(verdict_at(scene, {row.parameter}, {between}) == margin.verdict);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the joint margin is an edge, not further than any single one, and no random change is nearer",
+          "[chart][margin]") {
+  std::srand(7);
+  for (const Scene& scene : designs()) {
+    const auto margin = stability_margin(scene, stability_parameters(scene),
+                                         {.tolerance = scene.linear ? 1e-10 : 1e-12, .reach = 10.0});
+    const JointMargin& joint = margin.joint;
+    CAPTURE(describe(scene), joint.distance);
+    REQUIRE(!joint.edge.empty());
+    const double r = std::abs(joint.distance);
+    for (const auto& row : margin.parameters)
+      if (row.value != 0.0) CHECK(r <= std::abs(row.relative_distance) * (1.0 + 1e-12));
+    const auto moved = [&](double share) {
+      std::vector<double> values;
+      double square = 0.0;
+      for (std::size_t i = 0; i < joint.parameters.size(); ++i) {
+        const double p = parameter(scene, joint.parameters[i]);
+        values.push_back(std::lerp(p, joint.edge[i], share));
+        square += std::pow((joint.edge[i] - p) / p, 2);
+      }
+      CHECK(std::sqrt(square) == Approx(r).epsilon(1e-12));
+      return values;
+    };
+    CHECK(verdict_at(scene, joint.parameters, moved(1.0 - 1e-7)) == margin.verdict);
+    CHECK(verdict_at(scene, joint.parameters, moved(1.0 + 1e-7)) == other(margin.verdict));
+    for (int trial = 0; trial < 100; ++trial) {
+      std::vector<double> direction;
+      double square = 0.0;
+      for (std::size_t i = 0; i < joint.parameters.size(); ++i) {
+        direction.push_back(std::rand() / (0.5 * RAND_MAX) - 1.0);
+        square += direction.back() * direction.back();
+      }
+      for (std::size_t i = 0; i < direction.size(); ++i)
+        direction[i] =
+            parameter(scene, joint.parameters[i]) * (1.0 + 0.999 * r * direction[i] / std::sqrt(square));
+      CHECK(verdict_at(scene, joint.parameters, direction) == margin.verdict);
+    }
+  }
+}
+
+TEST_CASE("a thin tongue beside the design is not overlooked", "[chart][margin][extreme]") {
+  // tongue 6 at epsilon = 0.01 is 2e-18 wide
+  const auto row = stability_margin(mathieu_scene(9.1, 0.01), {"mathieu.delta"}).parameters.front();
+  CHECK(row.tongue == 6);
+  CHECK(*row.lower_edge == Approx(9.000001428571).epsilon(1e-12));
+}
+
+TEST_CASE("closed tongues bound nothing", "[chart][margin]") {
+  const auto margin = stability_margin(mathieu_scene(0.6, 0.0), {"mathieu.delta", "mathieu.epsilon"});
+  CHECK(*margin.parameters[0].lower_edge == 0.0);
+  CHECK_FALSE(margin.parameters[0].upper_edge);
+  CHECK(margin.parameters[0].tongue == 0);
+  CHECK(std::isnan(margin.parameters[1].relative_distance));
+  CHECK(margin.joint.parameters == std::vector<std::string>{"mathieu.delta"});
+  CHECK(margin.joint.distance == Approx(1.0));
+}
+
+TEST_CASE("a design on the edge has no distance to it", "[chart][margin]") {
+  const auto boundary = stability_margin(mathieu_scene(0.0, 0.0), {"mathieu.delta"});
+  CHECK(boundary.verdict == Verdict::boundary);
+  CHECK(boundary.parameters.front().distance == 0.0);
+  CHECK(boundary.parameters.front().outcome == Outcome::converged);
+  const double edge = characteristic_values(1, 1, 0.8).front().a.value / 4.0;
+  const auto unresolved = stability_margin(mathieu_scene(edge, 0.4), {"mathieu.delta"});
+  CHECK(unresolved.verdict == Verdict::unresolved);
+  CHECK(unresolved.parameters.front().distance == 0.0);
+  CHECK(unresolved.parameters.front().error < 1e-13);
+  CHECK(unresolved.parameters.front().outcome == Outcome::tolerance_not_reached);
+}
+
+TEST_CASE("parameters without influence have no edges", "[chart][margin]") {
+  const Scene scene = rod(Equilibrium::hanging, 0.05, 12.0);
+  const auto margin = stability_margin(scene, {"support.phase", "pendulum.mass", "support.frequency"});
+  for (const std::size_t i : {0, 1}) {
+    CHECK(std::isinf(margin.parameters[i].distance));
+    CHECK_FALSE(margin.parameters[i].lower_edge);
+  }
+  CHECK(margin.joint.parameters == std::vector<std::string>{"support.frequency"});
+  CHECK(margin.joint.distance == Approx(margin.parameters[2].relative_distance).epsilon(1e-13));
+  const auto all = stability_parameters(scene);
+  CHECK(all == std::vector<std::string>{"pendulum.length", "pendulum.gravity", "pendulum.damping",
+                                        "support.amplitude", "support.frequency"});
+  CHECK(stability_parameters(coupled_scene(2.2)).size() == 7);  // what breaks the symmetry is left out
+}
+
+TEST_CASE("the margin does not depend on the number of threads", "[chart][margin]") {
+  const Scene scene = rod(Equilibrium::inverted, 0.05, 120.0);
+  const auto one = stability_margin(scene, stability_parameters(scene), {.threads = 1}),
+             two = stability_margin(scene, stability_parameters(scene), {.threads = 2});
+  CHECK(one.joint.distance == two.joint.distance);
+  for (std::size_t i = 0; i < one.parameters.size(); ++i)
+    CHECK(one.parameters[i].distance == two.parameters[i].distance);
+}
+
+TEST_CASE("margin refuses what it cannot answer", "[chart][margin]") {
+  const Scene scene = mathieu_scene(0.6, 0.4);
+  CHECK_THROWS_AS(stability_margin(scene, {"mathieu.detla"}), InvalidInput);
+  CHECK_THROWS_AS(stability_margin(scene, {}, {.tolerance = 1e-14}), InvalidInput);
+  CHECK_THROWS_AS(stability_margin(scene, {}, {.reach = 1.0}), InvalidInput);
+  CHECK_THROWS_AS(stability_margin(scene, {}, {.reach = NAN}), InvalidInput);
+  CHECK_THROWS_AS(stability_margin(mathieu_scene(NAN, 0.4), {"mathieu.delta"}), InvalidInput);
+}
+
+}  // namespace strutt::test
