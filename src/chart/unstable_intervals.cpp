@@ -170,6 +170,7 @@ std::vector<UnstableInterval> intervals_of(const Scene& scene, const TongueLine&
   try {
     if (is_proved(scene, line)) return proved_intervals(scene, line, options);
   } catch (const NumericalFailure&) {  // the line touches an edge, as at the tip of a tongue
+  } catch (const InvalidInput&) {      // coefficients beyond those of the Fourier side
   }
   return MarginScan(scene, line, options).intervals();
 }
