@@ -154,12 +154,20 @@ class MarginScan {
   std::vector<bool> unstable_;
 };
 
-bool is_proved(const Scene& scene, const TongueLine& line) {
+/// Does tongues() know the scenes of this line?
+bool is_known(const Scene& scene, const TongueLine& line) {
   if (scene.linear) return false;
   try {
     require_tongue_line(scene, line);
-    tongue_count(scene, line);
     return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+bool is_countable(const Scene& scene, const TongueLine& line) {
+  try {
+    return tongue_count(scene, line) <= kLargestTongue + 1;
   } catch (const InvalidInput&) {
     return false;
   }
@@ -167,15 +175,26 @@ bool is_proved(const Scene& scene, const TongueLine& line) {
 
 std::vector<UnstableInterval> intervals_of(const Scene& scene, const TongueLine& line,
                                            const IntervalOptions& options) {
-  try {
-    if (is_proved(scene, line)) return proved_intervals(scene, line, options);
-  } catch (const NumericalFailure&) {  // the line touches an edge, as at the tip of a tongue
-  } catch (const InvalidInput&) {      // coefficients beyond those of the Fourier side
+  if (is_known(scene, line)) {
+    if (is_countable(scene, line)) {
+      try {
+        return proved_intervals(scene, line, options);
+      } catch (const NumericalFailure&) {  // the line touches an edge, as at the tip of a tongue
+      }
+    } else if (is_undamped_fourier(linear_model(scene))) {
+      throw NumericalFailure(line.parameter + ": more than 1000 tongues, most of them too thin to be seen");
+    }
   }
   return MarginScan(scene, line, options).intervals();
 }
 
 }  // namespace
+
+bool is_undamped_fourier(const LinearModel& model) {
+  const auto* equation = std::get_if<HillEquation>(&model);
+  return equation != nullptr && equation->damping == 0.0 &&
+         (equation->coefficient.is_constant() || !equation->coefficient.harmonics().empty());
+}
 
 MonodromyOptions sharpest() { return {.tolerance = 1e-13}; }
 

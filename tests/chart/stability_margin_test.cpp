@@ -212,6 +212,14 @@ TEST_CASE("a thin tongue beside the design is not overlooked", "[chart][margin][
   CHECK(*row.lower_edge == Approx(9.000001428571).epsilon(1e-12));
 }
 
+TEST_CASE("beyond a thousand tongues the distance is not known, and said to be so", "[chart][margin]") {
+  const auto margin = stability_margin(mathieu_scene(1e6, 10.0), {"mathieu.delta"});
+  CHECK(std::isnan(margin.parameters.front().distance));
+  CHECK(std::isnan(margin.joint.distance));
+  CHECK(margin.parameters.front().outcome == Outcome::tolerance_not_reached);
+  CHECK(margin.joint.outcome == Outcome::tolerance_not_reached);
+}
+
 TEST_CASE("closed tongues bound nothing", "[chart][margin]") {
   const auto margin = stability_margin(mathieu_scene(0.6, 0.0), {"mathieu.delta", "mathieu.epsilon"});
   CHECK(*margin.parameters[0].lower_edge == 0.0);

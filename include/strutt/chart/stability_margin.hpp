@@ -78,6 +78,8 @@ std::vector<std::string> stability_parameters(const Scene& scene);
 /// edge found along one parameter and from the gradient at the design. The result is an edge for certain;
 /// that no edge is nearer is not proved where the surface has several nearest points.
 ///
+/// Distance NaN, with outcome tolerance_not_reached: the search would pass more than kLargestTongue tongues of an
+/// undamped equation.
 /// A design on the edge (boundary, or unresolved) has the distance 0; unresolved: with outcome
 /// tolerance_not_reached. Throws InvalidInput for an unknown parameter, a scene that does not validate,
 /// options out of range.
