@@ -27,8 +27,7 @@ std::vector<Layer> layers_of(const std::string& text) {
 }
 
 Axis chosen_axis(const std::string& name, const std::optional<std::string>& flag,
-                 const std::optional<Axis>& file,
-                 const Scene& scene) {
+                 const std::optional<Axis>& file, const Scene& scene) {
   if (flag) return axis_of("--" + name, *flag, scene);
   if (file) return *file;
   throw UsageError("the " + name + " axis is missing: give --" + name + " P=FROM:TO:N, or " + name +
@@ -38,7 +37,9 @@ Axis chosen_axis(const std::string& name, const std::optional<std::string>& flag
 ChartRequest request_of(const ChartArguments& arguments, const SceneFile& scene) {
   ChartRequest request;
   request.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(request.tolerance));
-  request.method = method_of(arguments, "chart", {Method::surrogate, Method::propagator, Method::cvode, Method::arkode, Method::exact});
+  request.method =
+      method_of(arguments, "chart",
+                {Method::surrogate, Method::propagator, Method::cvode, Method::arkode, Method::exact});
   request.threads = threads_of(arguments);
   request.x = chosen_axis("x", arguments.x, scene.chart.x, scene.scene);
   request.y = chosen_axis("y", arguments.y, scene.chart.y, scene.scene);
@@ -79,30 +80,51 @@ SceneFile effective(SceneFile scene, const ChartRequest& request) {
   return scene;
 }
 
+std::string boxes(std::size_t count) { return fmt::format("{} {}", count, count == 1 ? "box" : "boxes"); }
+
 /// Boxes of a surrogate and what building them took.
 std::string surrogate_line(const SurrogateReport& report) {
-  return fmt::format("{} boxes, degrees up to {}, {} nodes, checked at {} points, {} boxes left to point by point",
-                     report.boxes, report.highest_degree, report.nodes, report.checks,
-                     report.boxes_left_out + report.failed_checks);
+  std::string line = fmt::format("{}, degrees up to {}, {} nodes, checked at {} points", boxes(report.boxes),
+                                 report.highest_degree, report.nodes, report.checks);
+  if (report.boxes_left_out > 0) line += ", " + boxes(report.boxes_left_out) + " left to point by point";
+  if (report.failed_checks > 0) line += ", " + boxes(report.failed_checks) + " given up by the check";
+  return line;
 }
 
-/// What the plan says about the surrogate that was asked for. It is built: that takes little next to a chart.
-std::vector<std::string> surrogate_lines(const Scene& scene, const ChartRequest& request, const ChartPlan& plan) {
+/// What was done, for the file.
+Provenance done(const ChartSummary& summary) {
+  std::string methods;
+  for (std::size_t m = 0; m < summary.methods.size(); ++m) {
+    if (summary.methods[m] == 0 || static_cast<Method>(m) == Method::automatic) continue;  // failed cells
+    methods += (methods.empty() ? "" : ", ") + std::string(to_string(static_cast<Method>(m))) + " " +
+               std::to_string(summary.methods[m]);
+  }
+  Provenance result{{"cells by method", methods}, {"largest error", to_text(summary.largest_error)}};
+  if (summary.surrogate) result.emplace_back("surrogate", surrogate_line(*summary.surrogate));
+  return result;
+}
+
+/// What the plan expects of the surrogate, or why there is none; nothing where another method was asked for.
+std::vector<std::string> surrogate_lines(const ChartPlan& plan) {
   if (!plan.refusal.empty()) return {"surrogate: not used, " + plan.refusal};
-  if (plan.method != Method::surrogate) return {};
-  const Surrogate surrogate(scene, request.x, request.y,
-                            {.tolerance = request.tolerance, .threads = request.threads});
-  return {"surrogate: " + surrogate_line(surrogate.report())};
+  if (!plan.surrogate) return {};
+  const auto& s = *plan.surrogate;
+  return {fmt::format("surrogate: about {}, degrees up to {}, {:.0f} nodes, {:.3g} % of the cells",
+                      boxes(s.boxes), s.highest_degree, s.nodes,
+                      100.0 * s.cells / static_cast<double>(plan.cells))};
 }
 
 std::vector<std::string> plan_lines(const ChartRequest& request, const ChartPlan& plan) {
-  return {fmt::format("cells: {} ({} x {})", plan.cells, request.x.points, request.y.points),
-          fmt::format("memory: {:.3g} MB at work, {:.3g} MB of results, budget {:.3g} MB",
-                      plan.working_bytes / 1e6, plan.result_bytes / 1e6, plan.budget_bytes / 1e6),
-          fmt::format("expected time: {:.2g} s", plan.expected_seconds),
-          "method: " + std::string(to_string(plan.method)),
-          "tolerance: " + to_text(request.tolerance),
-          fmt::format("threads: {}", plan.threads)};
+  std::vector<std::string> lines{
+      fmt::format("cells: {} ({} x {})", plan.cells, request.x.points, request.y.points),
+      fmt::format("memory: {:.3g} MB at work, {:.3g} MB of results, budget {:.3g} MB",
+                  plan.working_bytes / 1e6, plan.result_bytes / 1e6, plan.budget_bytes / 1e6),
+      fmt::format("expected time: {:.2g} s", plan.expected_seconds),
+      "method: " + std::string(to_string(plan.method)), "point by point: " + point_line(plan.point)};
+  for (auto& line : surrogate_lines(plan)) lines.push_back(std::move(line));
+  lines.push_back("tolerance: " + to_text(request.tolerance));
+  lines.push_back(fmt::format("threads: {}", plan.threads));
+  return lines;
 }
 
 std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
@@ -132,6 +154,8 @@ class Sinks {
     asked_.values.assign(strip.values.begin(), strip.values.begin() + static_cast<std::ptrdiff_t>(layers_));
     writer_->write(asked_);
   }
+
+  void conclude(const Provenance& done) { writer_->conclude(done); }
 
   /// Data and figure appear together: drawing can fail or be interrupted, and so can writing the last bytes.
   void commit() {
@@ -183,14 +207,11 @@ ExitCode run(const ChartArguments& arguments) {
   const ChartRequest computed = arguments.figure ? with_figure_layers(request) : request;
   const ChartPlan plan = plan_of(arguments, scene, computed);
   if (arguments.dry_run) {
-    auto lines = plan_lines(request, plan);
-    const auto more = surrogate_lines(scene.scene, request, plan);
-    lines.insert(lines.end(), more.begin(), more.end());
-    print_plan(effective(scene, request), lines);
+    print_plan(effective(scene, request), plan_lines(request, plan));
     return ExitCode::done;
   }
   warn_about(arguments, scene.scene);
-  if (!plan.refusal.empty() && !arguments.quiet) {
+  if (request.method == Method::surrogate && !plan.refusal.empty() && !arguments.quiet) {
     print_warning("no surrogate: " + plan.refusal + "; computing point by point (" +
                   std::string(to_string(plan.method)) + ")");
   }
@@ -208,6 +229,7 @@ ExitCode run(const ChartArguments& arguments) {
       [&](std::size_t done, std::size_t total) { progress.update(done, total); });
   progress.clear();
   throw_if_interrupted();
+  sinks.conclude(done(summary));
   sinks.commit();
   const Counts counts = count(request, summary);
   summarise(arguments, summary, counts, progress.seconds());

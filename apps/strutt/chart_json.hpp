@@ -10,6 +10,7 @@ class JsonChartWriter : public ChartWriter {
  public:
   JsonChartWriter(const std::filesystem::path& path, const ChartDescription& description);
   void write(const ChartStrip& strip) override;
+  void conclude(const Provenance& done) override { rows_.conclude(done); }
   void prepare() override { rows_.prepare(); }
   void commit() override { rows_.commit(); }
 

@@ -167,7 +167,8 @@ CLI::App* add_characteristic(CLI::App& app, CharacteristicArguments& arguments) 
 CLI::App* add_tongues(CLI::App& app, TonguesArguments& arguments) {
   auto* command = app.add_subcommand("tongues", "all tongues on a line: edges, index, width");
   add_scene(*command, arguments);
-  add_common(*command, arguments, "largest error of a position relative to max(1, |position|)", "fourier",
+  add_common(*command, arguments, "largest error of a position relative to max(1, |position|)",
+             "fourier, exact (square waves) or propagator (damping, [linear]): whichever fits",
              "1e-13 to 1e-2 (default 1e-12)");
   command->add_option("--along", arguments.along, "the parameter that changes, and its range")
       ->required()

@@ -1,6 +1,7 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "signals.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -14,6 +15,7 @@ ExitCode run(const Information& information) {
 
 int main(int argc, char** argv) {
   using namespace strutt::app;
+  const strutt::DefaultFloatingPoint environment;
   try {
     prepare_process();
     const Arguments arguments = parse_command_line(argc, argv);

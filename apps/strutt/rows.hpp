@@ -31,6 +31,7 @@ class RowWriter {
             const Provenance& provenance);
 
   void write(std::span<const Cell> row);
+  void conclude(const Provenance& done);  ///< what was done, known only now; behind the last row
   void prepare();  ///< after the last row: all that can fail but the renaming
   void commit();
 
@@ -42,6 +43,7 @@ class RowWriter {
   bool json_;
   bool first_ = true;
   bool complete_ = false;
+  Provenance done_;
   std::vector<Column> columns_;
   std::string line_;
 };

@@ -177,6 +177,14 @@ bool is_free(const Scene& scene) {
   return !scene.support && !scene.moment && scene.pendulum && scene.pendulum->damping == 0.0;
 }
 
+std::string point_line(const PointForecast& point) {
+  std::string line(to_string(point.method));
+  if (point.points == 0.0) return line;
+  if (point.steps > 0.0) line += fmt::format(", order {}, {:.3g} steps", point.order, point.steps);
+  if (point.right_hand_sides > 0.0) line += fmt::format(", {:.3g} evaluations", point.right_hand_sides);
+  return line + fmt::format(", {:.2g} us a point", 1e6 * point.seconds);
+}
+
 void print_plan(const std::string& model, const std::vector<std::string>& lines, const SceneFile* scene) {
   std::string text = "# model: " + model + "\n";
   for (const auto& line : lines) text += "# " + line + "\n";

@@ -8,6 +8,7 @@
 
 #include "arguments.hpp"
 #include "strutt/base/method.hpp"
+#include "strutt/chart/forecast.hpp"
 #include "strutt/io/provenance.hpp"
 #include "strutt/io/scene_file.hpp"
 
@@ -73,6 +74,9 @@ void require_memory(const CommonArguments& arguments, double bytes);
 
 /// A pendulum on which nothing but gravity acts?
 bool is_free(const Scene& scene);
+
+/// --dry-run: what is expected of a point.
+std::string point_line(const PointForecast& point);
 
 /// --dry-run: the model, the lines of the plan, and the scene if there is one, on standard output.
 void print_plan(const std::string& model, const std::vector<std::string>& lines,

@@ -10,7 +10,7 @@
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
-#include "strutt/chart/stability_chart.hpp"
+#include "strutt/chart/forecast.hpp"
 #include "terminal.hpp"
 
 namespace strutt::app {
@@ -18,8 +18,7 @@ namespace {
 
 // Beyond, the columns m11 ... mnn are left out.
 constexpr int kMostMatrixStates = 9;
-// Rows that are computed before they are written, for each thread.
-constexpr std::size_t kBlockRows = 256;    // per thread, between two looks at progress
+constexpr std::size_t kBlockRows = 256;    // per thread: computed before they are written
 constexpr std::size_t kMostTogether = 64;  // rows given to an engine at once
 
 /// The points asked for: the parameters that change, and a row of values for each point.
@@ -171,9 +170,8 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
   for (std::size_t first = 0; first < total; first += most) {
     const std::size_t size = std::min(most, total - first);
     const std::size_t together = std::clamp<std::size_t>(size / (4 * slots), 1, kMostTogether);
-    parallel_for((size + together - 1) / together, parallel, [&](std::size_t task, int slot) {
+    parallel_for_ranges(size, together, parallel, [&](std::size_t begin, std::size_t end, int slot) {
       const auto own = static_cast<std::size_t>(slot);
-      const std::size_t begin = task * together, end = std::min(begin + together, size);
       std::vector<LinearModel> models;
       for (std::size_t i = begin; i < end; ++i)
         models.push_back(linear_model(scenes[own]->at(points.values[first + i])));
@@ -189,14 +187,33 @@ Counts compute(const Scene& scene, const Points& points, const MonodromyOptions&
   return counts;
 }
 
+/// Mean over some points of the table, evenly among its rows.
+PointForecast forecast_of(const Scene& scene, const Points& points, const MonodromyOptions& options) {
+  constexpr std::size_t kMostTried = 16;
+  const std::size_t rows = points.values.size(), tried = std::min(rows, kMostTried);
+  ScenePoint point(scene, points.parameters);
+  std::vector<LinearModel> models;
+  for (std::size_t i = 0; i < tried; ++i)
+    models.push_back(linear_model(point.at(points.values[i * rows / tried])));
+  return forecast_points(models, options);
+}
+
 std::vector<std::string> plan_lines(const Scene& scene, const Points& points, const MonodromyOptions& options,
                                     int threads) {
-  const Method method = method_for(linear_model(scene), options.method);
-  const int used = thread_count({.threads = threads});
-  const double seconds = static_cast<double>(points.values.size()) * expected_seconds_per_point(method, linear_model(scene)) / used;
-  return {fmt::format("points: {}", points.values.size()), fmt::format("states: {}", states_of(scene)),
-          fmt::format("expected time: {:.2g} s", seconds), "method: " + std::string(to_string(method)),
-          "tolerance: " + to_text(options.tolerance), fmt::format("threads: {}", used)};
+  const std::size_t rows = points.values.size();
+  const auto point = forecast_of(scene, points, options);
+  const int used = thread_count({.threads = threads}), states = states_of(scene);
+  const auto numbers = static_cast<double>(points.parameters.size() * rows),
+             block = static_cast<double>(std::min(rows, kBlockRows * static_cast<std::size_t>(used)));
+  const double bytes = 8.0 * numbers + block * (sizeof(Stability) + 8.0 * states * (states + 2));
+  return {fmt::format("points: {}", rows),
+          fmt::format("states: {}", states),
+          fmt::format("memory: {:.3g} MB", bytes / 1e6),
+          fmt::format("expected time: {:.2g} s", static_cast<double>(rows) * point.seconds / used),
+          "method: " + std::string(to_string(point.method)),
+          "point by point: " + point_line(point),
+          "tolerance: " + to_text(options.tolerance),
+          fmt::format("threads: {}", used)};
 }
 
 }  // namespace

@@ -25,9 +25,31 @@ TongueLine line_of(const std::string& text, const Scene& scene) {
     const std::string unit = parameter_info(scene, line.parameter).unit;
     line.from = quantity_of("--along", ends[0], unit);
     line.to = quantity_of("--along", ends[1], unit);
-    require_tongue_line(scene, line);
   } catch (const InvalidInput& error) {
     throw UsageError("--along '" + text + "': " + error.what());
+  }
+  return line;
+}
+
+/// A scene that is refused on every line, however short, is a mistake of the file.
+void require_scene(const TonguesArguments& arguments, const SceneFile& file, const std::string& path) {
+  if (!arguments.set.empty()) return;
+  try {
+    const double value = parameter(file.scene, path);
+    require_tongue_line(file.scene, {path, value, std::nextafter(value, HUGE_VAL)});
+  } catch (const InvalidInput& error) {
+    throw FileError(file.file, 0, 0, error.what());
+  }
+}
+
+TongueLine usable(const TongueLine& line, const TonguesArguments& arguments, const SceneFile& file) {
+  try {
+    require_tongue_line(file.scene, line);
+    if (arguments.count && !has_tongue_index(file.scene, line))
+      throw UsageError("--count: tongues of a system with more than one degree of freedom have no index");
+  } catch (const InvalidInput& error) {
+    require_scene(arguments, file, line.parameter);
+    throw UsageError("--along '" + arguments.along + "': " + error.what());
   }
   return line;
 }
@@ -65,6 +87,7 @@ Lines lines_of(const TonguesArguments& arguments, const Scene& scene, const Tong
 
 /// Columns that are there only if asked for, or needed.
 struct Extras {
+  bool mechanism = false;
   bool growth = false;
   bool crossing = false;
 };
@@ -83,6 +106,7 @@ std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const
                                  {"error", "1"},
                                  {"method", ""},
                                  {"outcome", ""}});
+  if (extras.mechanism) columns.push_back({"mechanism", ""});
   if (extras.growth)
     columns.insert(columns.end(), {{"growth", "1"}, {"growth_position", unit(line.parameter)}});
   if (extras.crossing) columns.push_back({"crossing", "1"});
@@ -91,10 +115,12 @@ std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const
 
 std::vector<Cell> cells_of(const std::vector<double>& at, const TongueEdge& edge, const Extras& extras) {
   const auto number = [](double x) { return std::isnan(x) ? Cell() : Cell(x); };
-  std::vector<Cell> row{static_cast<double>(edge.order), std::string(edge.upper ? "upper" : "lower")};
+  std::vector<Cell> row{edge.order == kNoOrder ? Cell() : Cell(static_cast<double>(edge.order)),
+                        std::string(edge.upper ? "upper" : "lower")};
   row.insert(row.end(), at.begin(), at.end());
   row.insert(row.end(), {edge.position, number(edge.width), number(edge.width_relative_error), edge.error,
-                         std::string(to_string(Method::fourier)), std::string(to_string(edge.outcome))});
+                         std::string(to_string(edge.method)), std::string(to_string(edge.outcome))});
+  if (extras.mechanism) row.emplace_back(std::string(to_string(edge.mechanism)));
   if (extras.growth) row.insert(row.end(), {number(edge.growth), number(edge.growth_position)});
   if (extras.crossing) row.emplace_back(static_cast<double>(edge.crossing));
   return row;
@@ -108,7 +134,6 @@ bool any_edge(const std::vector<std::vector<TongueEdge>>& lines, const Predicate
 }  // namespace
 
 ExitCode run(const TonguesArguments& arguments) {
-  method_of(arguments, "tongues", {Method::fourier});
   const ParallelOptions parallel{.threads = threads_of(arguments), .cancel = &cancel_flag()};
   require_one_standard_input(arguments, "--at", arguments.at);
   const SceneFile scene = load_scene(arguments);
@@ -116,13 +141,15 @@ ExitCode run(const TonguesArguments& arguments) {
   options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
   if (arguments.count)
     options.count = static_cast<int>(count_of("--count", *arguments.count, 1, kLargestTongue + 1));
-  const TongueLine line = line_of(arguments.along, scene.scene);
+  const TongueLine line = usable(line_of(arguments.along, scene.scene), arguments, scene);
+  const Method method = tongue_method(scene.scene, line);
+  method_of(arguments, "tongues", {method});
   const Lines lines = lines_of(arguments, scene.scene, line);
   if (arguments.dry_run) {
     print_plan(
         scene,
         {fmt::format("along: {} from {} to {}", line.parameter, to_text(line.from), to_text(line.to)),
-         fmt::format("lines: {}", lines.scenes.size()), "method: fourier",
+         fmt::format("lines: {}", lines.scenes.size()), "method: " + std::string(to_string(method)),
          "tolerance: " + to_text(options.tolerance), fmt::format("threads: {}", thread_count(parallel))});
     return ExitCode::done;
   }
@@ -132,9 +159,10 @@ ExitCode run(const TonguesArguments& arguments) {
                [&](std::size_t i, int) { edges[i] = tongues(lines.scenes[i], line, options); });
   throw_if_interrupted();
   const bool crossing = any_edge(edges, [](const TongueEdge& e) { return e.crossing > 0; });
-  const Extras extras{.growth = arguments.growth, .crossing = crossing};
+  const Extras extras{
+      .mechanism = scene.scene.linear.has_value(), .growth = arguments.growth, .crossing = crossing};
   RowWriter writer(row_path(arguments), arguments.json, columns_of(scene.scene, line, lines, extras),
-                   provenance_of(arguments, scene, Method::fourier, options.tolerance));
+                   provenance_of(arguments, scene, method, options.tolerance));
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (const TongueEdge& edge : edges[i]) writer.write(cells_of(lines.rows[i], edge, extras));
   writer.commit();

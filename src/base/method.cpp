@@ -8,7 +8,7 @@
 namespace strutt {
 namespace {
 
-constexpr std::array<std::string_view, 7> kNames = {"auto",   "surrogate", "propagator", "cvode",
+constexpr std::array<std::string_view, kMethodCount> kNames = {"auto",   "surrogate", "propagator", "cvode",
                                                     "arkode", "fourier",   "exact"};
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "strutt/base/floating_point.hpp"
+
 #ifdef __SANITIZE_THREAD__
 extern "C" void __tsan_acquire(void* address);
 extern "C" void __tsan_release(void* address);
@@ -74,6 +76,7 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
                   const std::function<void(std::size_t, int)>& body) {
   std::atomic<std::size_t> done{0};
   const Work run = [&](std::size_t first, std::size_t last, int slot) {
+    const DefaultFloatingPoint environment;  // the threads of TBB have what they were started with
     for (std::size_t index = first; index < last && !is_cancelled(options); ++index) {
       body(index, slot);
       done.fetch_add(1, std::memory_order_relaxed);
@@ -94,6 +97,13 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
     arena.execute([&] { tbb::parallel_for(Range(0, count), Body{&run, &arena}); });
   }
   return done == count;
+}
+
+bool parallel_for_ranges(std::size_t count, std::size_t most, const ParallelOptions& options,
+                         const std::function<void(std::size_t, std::size_t, int)>& body) {
+  return parallel_for((count + most - 1) / most, options, [&](std::size_t range, int slot) {
+    body(range * most, std::min((range + 1) * most, count), slot);
+  });
 }
 
 }  // namespace strutt

@@ -7,18 +7,23 @@
 
 namespace strutt {
 
+StabilityParts parts_of(const std::vector<Layer>& layers) {
+  StabilityParts parts{.winding = false, .matrix = false};
+  for (const Layer layer : layers) {
+    parts.winding = parts.winding || layer == Layer::winding;
+    parts.matrix = parts.matrix || layer == Layer::discriminant;
+  }
+  return parts;
+}
+
 CellEngine::CellEngine(const Scene& scene, const ChartRequest& request)
     : scene_(scene),
       x_(&parameter(scene_, request.x.parameter)),
       y_(&parameter(scene_, request.y.parameter)),
       options_{.tolerance = request.tolerance,
                .method = request.method == Method::surrogate ? Method::automatic : request.method,
-               .cancel = request.cancel} {
-  for (const Layer layer : request.layers) {
-    parts_.winding = parts_.winding || layer == Layer::winding;
-    parts_.matrix = parts_.matrix || layer == Layer::discriminant;
-  }
-}
+               .cancel = request.cancel},
+      parts_(parts_of(request.layers)) {}
 
 std::vector<Stability> CellEngine::compute(std::span<const std::array<double, 2>> points) {
   std::vector<LinearModel> models;

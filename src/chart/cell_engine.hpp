@@ -9,6 +9,9 @@
 
 namespace strutt {
 
+/// What must be computed of a cell for the layers of a chart.
+StabilityParts parts_of(const std::vector<Layer>& layers);
+
 /// Point by point: one thread's model and integrators. Pointers into the scene let a cell set its two
 /// parameters in place.
 class CellEngine {
@@ -24,7 +27,7 @@ class CellEngine {
   double* x_;
   double* y_;
   MonodromyOptions options_;
-  StabilityParts parts_{.winding = false, .matrix = false};
+  StabilityParts parts_;
   MonodromyEngine engine_;
 };
 

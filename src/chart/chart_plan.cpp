@@ -1,13 +1,16 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "chart/cell_engine.hpp"
+#include "chart/cost_table.hpp"
+#include "chart/surrogate_forecast.hpp"
 #include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
 #include "strutt/chart/stability_chart.hpp"
-#include "strutt/chart/surrogate.hpp"
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt {
@@ -15,19 +18,8 @@ namespace {
 
 constexpr std::size_t kStripCells = 65'536;
 
-// Cost of a cell, measured on one core of a 2020s server at tolerance 1e-9; for the forecast only.
-struct CellCost {
-  Method method;
-  double seconds;            // of a Hill equation
-  double seconds_of_system;  // of four states
-};
-constexpr CellCost kCellCosts[] = {{Method::surrogate, 2e-8, 4e-6},
-                                   {Method::exact, 2e-6, 2e-6},
-                                   {Method::propagator, 1e-6, 1.6e-5},
-                                   {Method::arkode, 1e-4, 1.8e-4},
-                                   {Method::cvode, 5e-4, 1.2e-3}};
-
-constexpr double kMatrixCellSeconds = 4e-6;  // surrogates of whole periods: eigenvalues cell by cell
+constexpr double kLeastSeconds = 0.01;  // point by point, of charts for which a surrogate is considered
+constexpr double kLeastGain = 2.0;      // more than the forecast can be wrong by
 
 std::string gigabytes(double bytes) { return to_text(std::round(bytes / 1e7) / 100.0) + " GB"; }
 
@@ -47,18 +39,51 @@ void check_request(const ChartRequest& request) {
   MonodromyOptions{.tolerance = request.tolerance, .method = engine}.validate();
 }
 
+void check_memory(const ChartPlan& plan, const ChartRequest& request) {
+  const double bytes = std::max(plan.result_bytes, plan.working_bytes);
+  if (bytes <= plan.budget_bytes || request.force) return;
+  throw MemoryBudgetExceeded("a chart of " + std::to_string(request.x.points) + " x " +
+                             std::to_string(request.y.points) + " points with " +
+                             std::to_string(request.layers.size()) + " layers takes " + gigabytes(bytes) +
+                             ", more than the budget of " + gigabytes(plan.budget_bytes) +
+                             " (half of the memory); --force lifts it");
+}
+
+/// Why a surrogate that is possible is not worth building.
+std::string refusal_by_cost(const SurrogateForecast& forecast, double with_surrogate, double point_by_point) {
+  if (forecast.boxes == 0) return "no box is worth its nodes, or reaches the tolerance";
+  return fmt::format("it would take {:.2g} s, point by point takes {:.2g} s", with_surrogate, point_by_point);
+}
+
+/// Method, forecasts and time of one thread.
+void choose_method(ChartPlan& plan, const Scene& scene, const ChartRequest& request) {
+  const bool asked = request.method == Method::surrogate, open = request.method == Method::automatic;
+  const auto engine = asked ? Method::automatic : request.method;
+  plan.point = forecast_points(scene, request.x, request.y,
+                               {.tolerance = request.tolerance, .method = engine}, parts_of(request.layers));
+  plan.expected_seconds = static_cast<double>(plan.cells) * plan.point.seconds;
+  if (plan.method == Method::propagator && !scene.linear) plan.expected_seconds += kCosts.hill_tables;
+  if (!asked && !open) return;
+  const auto scope = surrogate_scope(scene, request.x, request.y);
+  plan.refusal = scope.refusal;
+  if (open && plan.refusal.empty() && plan.expected_seconds < kLeastSeconds)
+    plan.refusal = "the chart is small";
+  if (!plan.refusal.empty()) return;
+  plan.surrogate = forecast_surrogate(scene, request, scope);
+  const double seconds = expected_seconds(*plan.surrogate, plan.point, scene, request, scope);
+  if (open && kLeastGain * seconds > plan.expected_seconds) {
+    plan.refusal = refusal_by_cost(*plan.surrogate, seconds, plan.expected_seconds);
+    return;
+  }
+  plan.method = Method::surrogate;
+  plan.expected_seconds = seconds;
+  plan.working_bytes += plan.surrogate->bytes;
+}
+
 }  // namespace
 
 double memory_budget() {
   return 0.5 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
-double expected_seconds_per_point(Method method, const LinearModel& model) {
-  const bool system = std::holds_alternative<LinearPeriodicSystem>(model);
-  for (const auto& cost : kCellCosts) {
-    if (cost.method == method) return system ? cost.seconds_of_system : cost.seconds;
-  }
-  return 0.0;
 }
 
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
@@ -71,7 +96,6 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
       validate(corner);
     }
   }
-  const LinearModel model = linear_model(corner);
 
   ChartPlan plan;
   const double cells = static_cast<double>(request.x.points) * static_cast<double>(request.y.points);
@@ -83,22 +107,13 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
   plan.result_bytes = 8.0 * (cells * static_cast<double>(layers) + static_cast<double>(nx + ny));
   plan.working_bytes = 8.0 * static_cast<double>(plan.rows_per_strip * nx) * static_cast<double>(layers + 4);
   plan.budget_bytes = memory_budget();
-  if (request.method == Method::surrogate) plan.refusal = Surrogate::refusal(scene, request.x, request.y);
-  const bool interpolated = request.method == Method::surrogate && plan.refusal.empty();
-  plan.method = interpolated || request.method != Method::surrogate ? request.method : Method::automatic;
-  if (!interpolated) plan.method = method_for(model, plan.method);
   plan.threads = thread_count({.threads = request.threads});
-  const bool matrices =
-      interpolated && surrogate_scope(scene, request.x, request.y).kind == SurrogateKind::period;
-  plan.expected_seconds =
-      cells * (matrices ? kMatrixCellSeconds : expected_seconds_per_point(plan.method, model)) / plan.threads;
-  const double bytes = std::max(plan.result_bytes, plan.working_bytes);
-  if (bytes > plan.budget_bytes && !request.force) {
-    throw MemoryBudgetExceeded("a chart of " + std::to_string(nx) + " x " + std::to_string(ny) +
-                               " points with " + std::to_string(layers) + " layers takes " +
-                               gigabytes(bytes) + ", more than the budget of " +
-                               gigabytes(plan.budget_bytes) + " (half of the memory); --force lifts it");
-  }
+  check_memory(plan, request);
+  plan.method = method_for(linear_model(corner),
+                           request.method == Method::surrogate ? Method::automatic : request.method);
+  choose_method(plan, scene, request);
+  plan.expected_seconds /= plan.threads;
+  check_memory(plan, request);
   return plan;
 }
 

@@ -11,6 +11,10 @@ double point(int j, int n) {
   return std::sin(pi * (n - 2 * j) / (2.0 * n));  // symmetric to the bit, and 0 in the middle
 }
 
+double point(int j, int n, double low, double high) {
+  return 0.5 * (low + high) + 0.5 * (high - low) * point(j, n);
+}
+
 Eigen::MatrixXd transform(int n) {
   Eigen::MatrixXd result(n + 1, n + 1);
   for (int k = 0; k <= n; ++k) {

@@ -7,6 +7,7 @@
 namespace strutt::chebyshev {
 
 double point(int j, int n);
+double point(int j, int n, double low, double high);  ///< of [low, high]
 
 /// (n + 1) x (n + 1): from values at the points to the coefficients of T_0 ... T_n (a discrete cosine
 /// transform).

@@ -14,7 +14,10 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 
-bool same_harmonics(const PeriodicFunction& a, const PeriodicFunction& b) {
+bool is_square(const PeriodicFunction& v) { return v.harmonics().empty() && !v.is_constant(); }
+
+bool same_function(const PeriodicFunction& a, const PeriodicFunction& b) {
+  if (is_square(a) || is_square(b)) return is_square(a) && is_square(b) && a.deviation() == b.deviation();
   return std::ranges::equal(a.harmonics(), b.harmonics(), [](const Harmonic& x, const Harmonic& y) {
     return x.order == y.order && x.cosine == y.cosine && x.sine == y.sine;
   });
@@ -27,6 +30,7 @@ std::optional<double> amplitude_of_one_harmonic(const PeriodicFunction& v) {
 }
 
 double sum_of_amplitudes(const PeriodicFunction& v) {
+  if (is_square(v)) return v.deviation();
   double sum = 0.0;
   for (const Harmonic& h : v.harmonics()) sum += std::abs(h.cosine) + std::abs(h.sine);
   return sum;
@@ -45,7 +49,10 @@ TongueEdges mathieu_edges(int order, double epsilon) {
 }  // namespace
 
 double change_between(const LinePoint& a, const LinePoint& b) {
-  double sum = std::abs(a.mean - b.mean);
+  double sum = std::abs(a.mean + a.damping_shift - (b.mean + b.damping_shift)) +
+               std::abs(a.damping_shift - b.damping_shift);
+  if (is_square(a.variation) || is_square(b.variation))  // where it jumps does not matter
+    return sum + std::abs(sum_of_amplitudes(a.variation) - sum_of_amplitudes(b.variation));
   const auto left = a.variation.harmonics(), right = b.variation.harmonics();
   for (auto i = left.begin(), j = right.begin(); i != left.end() || j != right.end();) {
     const bool one = j == right.end() || (i != left.end() && i->order < j->order);
@@ -61,16 +68,37 @@ double change_between(const LinePoint& a, const LinePoint& b) {
 LineEquation::LineEquation(const Scene& scene, const TongueLine& line)
     : scene_(scene), value_(&parameter(scene_, line.parameter)) {}
 
-LinePoint LineEquation::at(double parameter) {
+std::optional<HillEquation> LineEquation::hill_equation_of(const Scene& scene) {
+  const LinearModel model = linear_model(scene);
+  if (const auto* equation = std::get_if<HillEquation>(&model)) return *equation;
+  return as_hill_equation(std::get<LinearPeriodicSystem>(model));
+}
+
+HillEquation LineEquation::equation(double parameter) {
   *value_ = parameter;
-  const LinearModel model = linear_model(scene_);
-  const auto* equation = std::get_if<HillEquation>(&model);
-  if (equation == nullptr) throw InvalidInput("[linear] has no tongues of Hill's equation");
-  require(equation->damping == 0.0, "damping", equation->damping, "0 for tongues");
-  const auto& w = equation->coefficient;
+  auto equation = hill_equation_of(scene_);
+  if (!equation) throw InvalidInput("[linear] with these values is no equation of second order");
+  return *equation;
+}
+
+double LineEquation::half_damping(double parameter) {
+  return std::numbers::pi * equation(parameter).canonical_damping();
+}
+
+LinePoint LineEquation::at(double parameter) {
+  const HillEquation hill = equation(parameter);
+  const auto& w = hill.coefficient;
+  const double half = 0.5 * hill.canonical_damping(), shift = half * half;
   const PeriodicFunction v = w.plus(-w.mean());
-  const double relative = equation->coefficient_error;
-  return {parameter, w.mean(), v, relative * (std::abs(w.mean()) + sum_of_amplitudes(v)), relative};
+  const double relative = hill.coefficient_error;
+  const double error =
+      relative * (std::abs(w.mean()) + sum_of_amplitudes(v)) + (relative + 8.0 * kUnit) * shift;
+  return {.parameter = parameter,
+          .mean = w.mean() - shift,
+          .variation = v,
+          .damping_shift = shift,
+          .error = error,
+          .relative_error = relative};
 }
 
 double LineEquation::growth(double parameter) {
@@ -95,7 +123,7 @@ const EdgeFunction::Value& EdgeFunction::at(double parameter) {
 }
 
 TongueEdges EdgeFunction::edges_of(const LinePoint& point) {
-  if (last_ && same_harmonics(last_->point.variation, point.variation)) return last_->edges;
+  if (last_ && same_function(last_->point.variation, point.variation)) return last_->edges;
   if (const auto epsilon = amplitude_of_one_harmonic(point.variation)) return mathieu_edges(order_, *epsilon);
   return tongue_edges(point.variation, order_, order_).front();
 }

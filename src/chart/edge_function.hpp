@@ -8,11 +8,13 @@
 
 namespace strutt {
 
-/// The equation on a line, X'' + (mean + V) X = 0 in canonical time.
+/// The equation on a line in canonical time without its damping g: Y'' + (mean + V) Y = 0, Y = exp(g theta/2)
+/// X.
 struct LinePoint {
   double parameter = 0.0;
-  double mean = 0.0;
-  PeriodicFunction variation;   ///< V
+  double mean = 0.0;            ///< that of X less g^2/4
+  PeriodicFunction variation;   ///< V, with finitely many harmonics or a square wave
+  double damping_shift = 0.0;   ///< g^2/4
   double error = 0.0;           ///< a bound of what rounding has changed of the mean and, in norm, of V
   double relative_error = 0.0;  ///< of each coefficient
 };
@@ -27,10 +29,16 @@ class LineEquation {
   LineEquation(const Scene& scene, const TongueLine& line);
   LineEquation(const LineEquation&) = delete;
 
+  /// The Hill equation of a scene, also of [linear] with one degree of freedom; nothing if it has none.
+  static std::optional<HillEquation> hill_equation_of(const Scene& scene);
+
   LinePoint at(double parameter);
-  double growth(double parameter);  ///< by the monodromy matrix
+  double half_damping(double parameter);  ///< cT/2
+  double growth(double parameter);        ///< by the monodromy matrix
 
  private:
+  HillEquation equation(double parameter);
+
   MonodromyEngine engine_;
   Scene scene_;
   double* value_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "chart/cell_engine.hpp"
 #include "chart/point_equation.hpp"
 #include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
@@ -12,12 +13,8 @@ MatrixCell::MatrixCell(const Scene& scene, const ChartRequest& request)
     : scene_(scene),
       x_(&parameter(scene_, request.x.parameter)),
       y_(&parameter(scene_, request.y.parameter)),
-      tolerance_(request.tolerance) {
-  for (const Layer layer : request.layers) {
-    parts_.winding = parts_.winding || layer == Layer::winding;
-    parts_.matrix = parts_.matrix || layer == Layer::discriminant;
-  }
-}
+      tolerance_(request.tolerance),
+      parts_(parts_of(request.layers)) {}
 
 Stability MatrixCell::assess(double x, double y, const SurrogateBox& box, const Eigen::MatrixXd& value,
                              const Eigen::MatrixXd& error) {

@@ -20,7 +20,7 @@ class MatrixCell {
   double* x_;
   double* y_;
   double tolerance_;
-  StabilityParts parts_{.winding = false, .matrix = false};
+  StabilityParts parts_;
 };
 
 }  // namespace strutt

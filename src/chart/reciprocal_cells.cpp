@@ -29,6 +29,18 @@ const LinearPeriodicSystem* served(const LinearModel& model) {
   return reciprocal ? system : nullptr;
 }
 
+/// The mass matrix of the systems at the sampled points, if all are served and have the same.
+std::optional<Matrix2d> common_mass(const Scene& scene, const Axis& x, const Axis& y) {
+  const auto models = sampled_models(scene, x, y);
+  if (!models) return std::nullopt;
+  const auto* const first = served(models->front());
+  for (const auto& model : *models) {
+    const auto* const system = served(model);
+    if (first == nullptr || system == nullptr || system->mass != first->mass) return std::nullopt;
+  }
+  return Matrix2d(first->mass);
+}
+
 /// Blocks of a matrix of four rows and columns.
 struct Blocks {
   Matrix2d a, b, c, d;
@@ -78,17 +90,16 @@ double error_of(const Blocks& value, const Blocks& error, const Blocks& size, lo
 
 }  // namespace
 
+bool ReciprocalCells::serves(const Scene& scene, const Axis& x, const Axis& y) {
+  return common_mass(scene, x, y).has_value();
+}
+
 std::optional<ReciprocalCells> ReciprocalCells::of(const Scene& scene, const ChartRequest& request) {
-  const auto models = sampled_models(scene, request.x, request.y);
-  if (!models) return std::nullopt;
-  const auto* const first = served(models->front());
-  for (const auto& model : *models) {
-    const auto* const system = served(model);
-    if (first == nullptr || system == nullptr || system->mass != first->mass) return std::nullopt;
-  }
+  const auto mass = common_mass(scene, request.x, request.y);
+  if (!mass) return std::nullopt;
   ReciprocalCells result;
   result.tolerance_ = request.tolerance;
-  result.mass_ = first->mass;
+  result.mass_ = *mass;
   result.inverse_mass_ = result.mass_.inverse();
   Scene point = scene;
   double &x = parameter(point, request.x.parameter), &y = parameter(point, request.y.parameter);

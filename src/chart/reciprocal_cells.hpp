@@ -19,6 +19,9 @@ class ReciprocalCells {
   /// a product of functions of the two parameters.
   static std::optional<ReciprocalCells> of(const Scene& scene, const ChartRequest& request);
 
+  /// Whether the systems there are such ones, whatever cT is.
+  static bool serves(const Scene& scene, const Axis& x, const Axis& y);
+
   /// The cell in column i and row j; `value` is the propagator in the unit and the state of the box.
   Stability assess(std::size_t i, std::size_t j, const SurrogateBox& box, const Eigen::Matrix4d& value) const;
 

@@ -10,6 +10,7 @@
 
 #include "chart/cell_engine.hpp"
 #include "chart/surrogate_cells.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/base/parallel.hpp"
 
 namespace strutt {
@@ -20,6 +21,7 @@ constexpr std::size_t kMostTogether = 256;  // cells given to an engine at once:
 /// What a cell adds to the summary.
 struct CellRecord {
   Outcome outcome = Outcome::failed;
+  Method method = Method::automatic;
   bool unresolved = false;
   double error = 0.0;
   long right_hand_sides = 0;
@@ -47,6 +49,7 @@ class BatchSize {
 void add(ChartSummary& summary, const CellRecord& cell, bool with_verdict) {
   ++summary.cells;
   ++summary.outcomes[static_cast<std::size_t>(cell.outcome)];
+  ++summary.methods[static_cast<std::size_t>(cell.method)];
   if (with_verdict && cell.unresolved) ++summary.unresolved;
   summary.right_hand_sides += cell.right_hand_sides;
   if (cell.outcome == Outcome::converged) summary.largest_error = std::max(summary.largest_error, cell.error);
@@ -75,10 +78,9 @@ class PointByPoint {
       count = std::min(batch_.size(), places.size() - start);
       const std::size_t together = std::clamp<std::size_t>(count / (4 * engines_.size()), 1, kMostTogether);
       const std::span<const std::size_t> some(&places[start], count);
-      const bool complete =
-          parallel_for((count + together - 1) / together, parallel_, [&](std::size_t task, int slot) {
-            const std::size_t first = task * together, size = std::min(together, count - first);
-            fill_cells(strip, some.subspan(first, size), &records_[first],
+      const bool complete = parallel_for_ranges(
+          count, together, parallel_, [&](std::size_t first, std::size_t last, int slot) {
+            fill_cells(strip, some.subspan(first, last - first), &records_[first],
                        *engines_[static_cast<std::size_t>(slot)]);
           });
       // a cell that was being integrated when the caller cancelled counts as done, but holds nothing
@@ -103,7 +105,7 @@ class PointByPoint {
       const auto& result = results[k];
       for (std::size_t l = 0; l < request_.layers.size(); ++l)
         strip.values[l][cells[k]] = layer_value(result, request_.layers[l]);
-      records[k] = {result.outcome, result.verdict == Verdict::unresolved, result.error,
+      records[k] = {result.outcome, result.method, result.verdict == Verdict::unresolved, result.error,
                     result.cost.right_hand_sides + result.estimate_cost.right_hand_sides};
     }
   }
@@ -122,10 +124,12 @@ class PointByPoint {
 
 ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, const StripSink& sink,
                            const ProgressSink& progress) {
+  const DefaultFloatingPoint environment;
   const ChartPlan plan = plan_chart(scene, request);
   const std::size_t nx = request.x.points, ny = request.y.points;
   ChartSummary summary;
   summary.outcomes.assign(kOutcomeCount, 0);
+  summary.methods.assign(kMethodCount, 0);
   ChartStrip strip{.columns = nx, .values = std::vector<std::vector<double>>(request.layers.size())};
   for (auto& layer : strip.values) layer.reserve(plan.rows_per_strip * nx);
   PointByPoint points(scene, request, plan.cells, progress);
@@ -146,7 +150,7 @@ ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, cons
     bool complete = true;
     if (surrogate) {
       complete = surrogate->fill(strip, summary, places);
-      if (progress) progress(summary.cells, plan.cells);
+      if (complete && progress) progress(summary.cells, plan.cells);
     } else {
       places.resize(cells);
       std::iota(places.begin(), places.end(), std::size_t{0});

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "chart/chebyshev.hpp"
-#include "chart/hill_model.hpp"
 #include "chart/point_equation.hpp"
-#include "chart/product_table.hpp"
 #include "chart/surrogate_box.hpp"
 #include "chart/surrogate_build.hpp"
 #include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -48,29 +46,18 @@ double Surrogate::coordinate(const Axis& axis, double value) {
 }
 
 std::string Surrogate::refusal(const Scene& scene, const Axis& x, const Axis& y) {
-  if (x.points < 2 || y.points < 2) return "an axis has only one point";
-  const auto scope = surrogate_scope(scene, x, y);
-  if (!scope.refusal.empty() || scope.kind != SurrogateKind::half_period) return scope.refusal;
-  HillModel model(scene, x, y, scope.even_phase);
-  const Axis few_x{x.parameter, x.from, x.to, 2, x.scale}, few_y{y.parameter, y.from, y.to, 2, y.scale};
-  for (const auto property : {&PointEquation::half_damping, &PointEquation::kappa_square}) {
-    const auto value = [&](double px, double py) {
-      const auto point = model.at(px, py);
-      return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
-    };
-    if (!ProductTable::of(value, few_x, few_y))
-      return "damping or mean of the coefficient is not a product of functions of the two parameters";
-  }
-  return "";
+  return surrogate_scope(scene, x, y).refusal;
 }
 
 Surrogate::Surrogate(const Scene& scene, const Axis& x, const Axis& y, const SurrogateOptions& options) {
+  const DefaultFloatingPoint environment;
   x.validate("x");
   y.validate("y");
   MonodromyOptions{.tolerance = options.tolerance}.validate();
-  if (const auto reason = refusal(scene, x, y); !reason.empty())
-    throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + reason);
-  auto built = build_surrogate(scene, x, y, options);
+  const auto scope = surrogate_scope(scene, x, y);
+  if (!scope.refusal.empty())
+    throw InvalidInput("no surrogate over " + x.parameter + " and " + y.parameter + ": " + scope.refusal);
+  auto built = build_surrogate(scene, x, y, options, scope, surrogate_source(scope, scene, x, y, options));
   data_ = std::move(built.data);
   cancelled_ = built.cancelled;
 }
@@ -111,6 +98,7 @@ std::optional<Surrogate::Point> Surrogate::point_at(double x, double y) const {
 }
 
 std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const {
+  const DefaultFloatingPoint environment;
   const auto point = point_at(x, y);
   if (!point || !hill_equation_of(point->model)) return std::nullopt;
   const auto scale = point_equation(point->model, data_.even_phase);
@@ -122,6 +110,7 @@ std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const
 }
 
 std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
+  const DefaultFloatingPoint environment;
   const auto point = point_at(x, y);
   if (!point) return std::nullopt;
   if (hill_equation_of(point->model)) {
@@ -136,6 +125,7 @@ std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
 }
 
 std::optional<SurrogateGradient> Surrogate::gradient(double x, double y) const {
+  const DefaultFloatingPoint environment;
   const SurrogateBox* const box = box_at(x, y);
   if (box == nullptr) return std::nullopt;
   const auto place = [&](std::size_t axis, double v) {

@@ -11,21 +11,9 @@ namespace strutt {
 namespace {
 
 constexpr double kShareBeforeTrace = 0.5;
+
 bool contains(const std::vector<Layer>& layers, Layer layer) {
   return std::find(layers.begin(), layers.end(), layer) != layers.end();
-}
-
-bool only_trace(const ChartRequest& request) {
-  return std::all_of(request.layers.begin(), request.layers.end(),
-                     [](Layer layer) { return layer == Layer::discriminant || layer == Layer::outcome; });
-}
-
-/// A discriminant alone is interpolated once more, which takes its share of the error.
-SurrogateOptions options_of(const ChartRequest& request) {
-  const double share = only_trace(request) ? kShareBeforeTrace : 1.0;
-  return {.tolerance = std::max(share * request.tolerance, 1e-13),
-          .threads = request.threads,
-          .cancel = request.cancel};
 }
 
 /// A property of the equation at each cell; NaN where there is none.
@@ -39,13 +27,25 @@ ProductTable table_of(HillModel& model, const ChartRequest& request, double Poin
 
 }  // namespace
 
+bool wants_trace_only(const ChartRequest& request) {
+  return std::all_of(request.layers.begin(), request.layers.end(),
+                     [](Layer layer) { return layer == Layer::discriminant || layer == Layer::outcome; });
+}
+
+SurrogateOptions surrogate_options(const ChartRequest& request) {
+  const double share = wants_trace_only(request) ? kShareBeforeTrace : 1.0;
+  return {.tolerance = std::max(share * request.tolerance, 1e-13),
+          .threads = request.threads,
+          .cancel = request.cancel};
+}
+
 SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
     : request_(request),
       with_verdict_(contains(request.layers, Layer::verdict)),
       with_winding_(contains(request.layers, Layer::winding)),
       parallel_{.threads = request.threads, .cancel = request.cancel},
-      surrogate_(scene, request.x, request.y, options_of(request)),
-      boxes_(only_trace(request) && surrogate_.kind() == SurrogateKind::half_period
+      surrogate_(scene, request.x, request.y, surrogate_options(request)),
+      boxes_(wants_trace_only(request) && surrogate_.kind() == SurrogateKind::half_period
                  ? trace_boxes(surrogate_.boxes(), request.tolerance)
                  : surrogate_.boxes()),
       grid_(boxes_, request.x, request.y) {
@@ -73,6 +73,7 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
   for (const auto& count : counts) all += count;
   summary.cells += all.cells;
   summary.interpolated += all.cells;
+  summary.methods[static_cast<std::size_t>(Method::surrogate)] += all.cells;
   summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += all.cells;
   summary.largest_error = std::max(summary.largest_error, all.largest_error);
   rest.clear();

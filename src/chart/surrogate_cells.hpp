@@ -17,6 +17,12 @@
 
 namespace strutt {
 
+/// Whether D is all that a chart wants.
+bool wants_trace_only(const ChartRequest& request);
+
+/// A discriminant alone is interpolated once more, which takes its share of the error.
+SurrogateOptions surrogate_options(const ChartRequest& request);
+
 /// The cells of a chart from a surrogate, strip by strip.
 class SurrogateCells {
  public:

@@ -1,8 +1,11 @@
 #include "chart/surrogate_scope.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
+#include "chart/hill_model.hpp"
+#include "chart/product_table.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -16,6 +19,20 @@ std::optional<double> common_even_phase(const std::vector<PeriodicFunction>& coe
   const bool all = phase && std::all_of(coefficients.begin(), coefficients.end(),
                                         [&](const auto& w) { return is_even_about(w, *phase); });
   return all ? phase : std::nullopt;
+}
+
+/// Whether damping and mean can be tabulated axis by axis.
+bool has_tables(const Scene& scene, const Axis& x, const Axis& y, double even_phase) {
+  HillModel model(scene, x, y, even_phase);
+  const Axis few_x{x.parameter, x.from, x.to, 2, x.scale}, few_y{y.parameter, y.from, y.to, 2, y.scale};
+  const auto is_product = [&](double PointEquation::*property) {
+    const auto value = [&](double px, double py) {
+      const auto point = model.at(px, py);
+      return point ? (*point).*property : std::numeric_limits<double>::quiet_NaN();
+    };
+    return ProductTable::of(value, few_x, few_y).has_value();
+  };
+  return is_product(&PointEquation::half_damping) && is_product(&PointEquation::kappa_square);
 }
 
 SurrogateScope scope_of_systems(const std::vector<LinearModel>& models) {
@@ -71,6 +88,10 @@ SystemDamping damping_of(const LinearPeriodicSystem& system) {
 
 SurrogateScope surrogate_scope(const Scene& scene, const Axis& x, const Axis& y) {
   SurrogateScope scope;
+  if (x.points < 2 || y.points < 2) {
+    scope.refusal = "an axis has only one point";
+    return scope;
+  }
   const auto models = sampled_models(scene, x, y);
   if (!models) {
     scope.refusal = "the parameters do not make a model everywhere";
@@ -88,6 +109,9 @@ SurrogateScope surrogate_scope(const Scene& scene, const Axis& x, const Axis& y)
   } else {
     scope.even_phase = common_even_phase(coefficients);
     if (scope.even_phase) scope.kind = SurrogateKind::half_period;
+    if (scope.even_phase && !has_tables(scene, x, y, *scope.even_phase))
+      scope.refusal =
+          "damping or mean of the coefficient is not a product of functions of the two parameters";
   }
   return scope;
 }

@@ -1,183 +1,19 @@
 #include "strutt/chart/tongues.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
+#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "chart/damped_tongue.hpp"
 #include "chart/edge_function.hpp"
-#include "chart/edge_zeros.hpp"
+#include "chart/system_tongues.hpp"
+#include "chart/tongue_on_line.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/floquet/stability.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kUnit = 0x1p-53;
-constexpr double kWidthPromise = 1e-10;
-constexpr double kNarrow = 1e-7;  // width in the mean below which its first power gives the growth
-
-/// A stretch of the line inside a tongue; an end that is not on the line is missing.
-struct Stretch {
-  std::optional<EdgeZero> begin, end;
-};
-
-/// Two zeros a rounding apart may come in the wrong order: of a rising pair the lower edge is met first, of a
-/// falling one the upper.
-void order_twins(std::vector<EdgeZero>& zeros, double resolution) {
-  std::ranges::sort(zeros, {}, &EdgeZero::position);
-  for (std::size_t i = 1; i < zeros.size(); ++i) {
-    EdgeZero &first = zeros[i - 1], &second = zeros[i];
-    const bool twins = first.upper != second.upper && first.rising == second.rising &&
-                       second.position - first.position <= resolution;
-    if (twins && first.upper == first.rising) std::swap(first, second);
-  }
-}
-
-/// Enters a tongue through the lower edge of a rising F or the upper of a falling one.
-bool enters(const EdgeZero& zero, int order) {
-  if (order == 0) return !zero.rising;
-  return zero.rising != zero.upper;
-}
-
-std::vector<Stretch> stretches(const std::vector<EdgeZero>& zeros, int order) {
-  std::vector<Stretch> result;
-  bool inside = false;
-  for (const EdgeZero& zero : zeros) {
-    if (enters(zero, order)) {
-      if (inside) continue;  // both edges meet in a tip on the end of the line
-      result.push_back({zero, std::nullopt});
-      inside = true;
-    } else if (inside) {
-      result.back().end = zero;
-      inside = false;
-    } else {
-      result.push_back({std::nullopt, zero});  // the line begins inside
-    }
-  }
-  return result;
-}
-
-class TongueOnLine {
- public:
-  TongueOnLine(LineEquation& equation, int order, const TongueLine& line, const TongueOptions& options)
-      : line_equation_(equation), function_(equation, order), line_(line), options_(options) {}
-
-  std::vector<TongueEdge> edges() {
-    std::vector<EdgeZero> zeros = edge_zeros(function_, true, line_, options_.cancel);
-    if (function_.order() > 0)
-      std::ranges::move(edge_zeros(function_, false, line_, options_.cancel), std::back_inserter(zeros));
-    order_twins(zeros, 1e-9 * (line_.to - line_.from));
-    std::vector<TongueEdge> result;
-    int crossing = 0;
-    for (const Stretch& stretch : stretches(zeros, function_.order())) {
-      const std::size_t first = result.size();
-      if (stretch.begin) result.push_back(edge(*stretch.begin, false, crossing));
-      if (stretch.end) result.push_back(edge(*stretch.end, true, crossing));
-      if (function_.order() > 0) add_width(stretch, result, first);
-      ++crossing;
-    }
-    return result;
-  }
-
- private:
-  TongueEdge edge(const EdgeZero& zero, bool upper, int crossing) {
-    const double p = zero.position, size = std::max(1.0, std::abs(p));
-    const auto slope = function_.slope(zero.upper, p, p, line_);
-    const double steepness = slope ? std::abs(slope->value) : secant(zero);
-    const auto& value = function_.at(p);
-    const double off = std::abs(value.below(zero.upper)) + value.error(zero.upper);
-    const double distance = off == 0.0 ? 0.0 : off / steepness;
-    TongueEdge result{.order = function_.order(),
-                      .upper = upper,
-                      .crossing = crossing,
-                      .position = p,
-                      .error = (distance * (1.0 + 1e-9) + kUnit * std::abs(p)) / size};
-    if (!(result.error <= options_.tolerance)) result.outcome = Outcome::tolerance_not_reached;
-    return result;
-  }
-
-  double secant(const EdgeZero& zero) {
-    const double step = 1e-6 * (line_.to - line_.from);
-    const double low = std::max(line_.from, zero.position - step),
-                 high = std::min(line_.to, zero.position + step);
-    return std::abs(function_.at(high).below(zero.upper) - function_.at(low).below(zero.upper)) /
-           (high - low);
-  }
-
-  void add_width(const Stretch& stretch, std::vector<TongueEdge>& edges, std::size_t first) {
-    TongueWidth width{kNaN, kNaN};
-    if (stretch.begin && stretch.end) {
-      width = width_of(*stretch.begin, *stretch.end, edges[first], edges[first + 1]);
-      const bool good = width.relative_error <= kWidthPromise || width.relative_error == 1.0;
-      if (!good) edges[first].outcome = edges[first + 1].outcome = Outcome::tolerance_not_reached;
-      if (options_.growth) add_growth(*stretch.end, edges[first], edges[first + 1]);
-      place(width, edges[first], edges[first + 1]);
-    }
-    for (std::size_t i = first; i < edges.size(); ++i) {
-      edges[i].width = width.value;
-      edges[i].width_relative_error = width.relative_error;
-    }
-  }
-
-  TongueWidth width_of(const EdgeZero& begin, const EdgeZero& end, const TongueEdge& low,
-                       const TongueEdge& high) {
-    const double difference = high.position - low.position;
-    const auto size = [](const TongueEdge& e) { return std::max(1.0, std::abs(e.position)); };
-    const double error = low.error * size(low) + high.error * size(high) + 2.0 * kUnit * std::abs(difference);
-    TongueWidth direct{difference, error / std::abs(difference)};
-    if (begin.upper == end.upper || begin.rising != end.rising) return direct;
-    const TongueWidth own = width_by_slope(begin, end);
-    return own.relative_error <= direct.relative_error || !(difference > error) ? own : direct;
-  }
-
-  /// F of the lower edge is the width in the mean where that of the upper edge is zero.
-  TongueWidth width_by_slope(const EdgeZero& begin, const EdgeZero& end) {
-    const double from = std::min(begin.position, end.position), to = std::max(begin.position, end.position);
-    const auto slope = function_.slope(false, from, to, line_);
-    if (!slope) return {to - from, kNaN};
-    const auto& value = function_.at(begin.upper ? begin.position : end.position);
-    TongueWidth width = tongue_width(value.point.variation, value.edges);
-    width.value /= std::abs(slope->value);
-    if (width.relative_error >= 1.0 || width.value == 0.0) return width;
-    // a coefficient of V counts in each step of the way between the resonant modes
-    width.relative_error +=
-        slope->relative_error + (function_.order() + 2) * value.point.relative_error + 4.0 * kUnit;
-    return width;
-  }
-
-  /// The discriminant has one extremum between the edges of a tongue.
-  void add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& high) {
-    const auto& value = function_.at(end.position);
-    const double in_mean = value.edges.upper.value - value.edges.lower->value;
-    if (in_mean < kNarrow) {
-      low.growth = narrow_tongue_growth(value.point.variation, value.edges,
-                                        tongue_width(value.point.variation, value.edges));
-      low.growth_position = std::midpoint(low.position, high.position);
-    } else {
-      const auto [position, growth] = boost::math::tools::brent_find_minima(
-          [&](double p) { return -line_equation_.growth(p); }, low.position, high.position, 30);
-      low.growth = -growth;
-      low.growth_position = position;
-    }
-    high.growth = low.growth;
-    high.growth_position = low.growth_position;
-  }
-
-  /// The edges of a narrow tongue, where they are closer than their errors: about their middle.
-  static void place(const TongueWidth& width, TongueEdge& low, TongueEdge& high) {
-    if (high.position - low.position > 0.0 && width.value > 1e-9 * std::abs(low.position)) return;
-    const double middle = std::midpoint(low.position, high.position);
-    low.position = middle - 0.5 * width.value;
-    high.position = middle + 0.5 * width.value;
-  }
-
-  LineEquation& line_equation_;
-  EdgeFunction function_;
-  const TongueLine& line_;
-  const TongueOptions& options_;
-};
 
 void validate(const Scene& scene, const TongueLine& line) {
   require(std::isfinite(line.from) && std::isfinite(line.to), line.parameter, line.to - line.from,
@@ -190,26 +26,64 @@ void validate(const Scene& scene, const TongueLine& line) {
   }
 }
 
-void require_fourier(const PeriodicFunction& v) {
-  if (v.harmonics().empty() && !v.is_constant())
-    throw InvalidInput("coefficient", "a square wave or an antiderivative of one", "finitely many harmonics");
+/// Both ends of the line and its middle.
+std::array<double, 3> samples_of(const TongueLine& line) {
+  return {line.from, std::midpoint(line.from, line.to), line.to};
+}
+
+bool damped(const Scene& scene, const TongueLine& line) {
+  LineEquation equation(scene, line);
+  return std::ranges::any_of(samples_of(line), [&](double p) { return equation.half_damping(p) > 0.0; });
+}
+
+bool is_square(const Scene& scene, const TongueLine& line) {
+  const auto& w = LineEquation(scene, line).at(line.from).variation;
+  return w.harmonics().empty() && !w.is_constant();
 }
 
 }  // namespace
 
-void require_tongue_line(const Scene& scene, const TongueLine& line) {
+std::string_view to_string(Mechanism mechanism) {
+  switch (mechanism) {
+    case Mechanism::plus_one:
+      return "+1";
+    case Mechanism::minus_one:
+      return "-1";
+    case Mechanism::complex_pair:
+      break;
+  }
+  return "complex";
+}
+
+bool has_tongue_index(const Scene& scene, const TongueLine& line) {
   validate(scene, line);
+  if (!scene.linear) return true;
+  Scene changed = scene;
+  return std::ranges::all_of(samples_of(line), [&](double p) {
+    parameter(changed, line.parameter) = p;
+    return LineEquation::hill_equation_of(changed).has_value();
+  });
+}
+
+Method tongue_method(const Scene& scene, const TongueLine& line) {
+  if (!has_tongue_index(scene, line)) return Method::propagator;
+  if (is_square(scene, line)) return Method::exact;
+  return damped(scene, line) ? Method::propagator : Method::fourier;
+}
+
+void require_tongue_line(const Scene& scene, const TongueLine& line) {
+  if (!has_tongue_index(scene, line)) return;
   LineEquation equation(scene, line);
-  for (const double end : {line.from, line.to}) require_fourier(equation.at(end).variation);
+  for (const double end : {line.from, line.to}) tongue_edges(equation.at(end).variation, 0, 0);
 }
 
 int tongue_count(const Scene& scene, const TongueLine& line) {
-  validate(scene, line);
+  if (!has_tongue_index(scene, line)) throw InvalidInput("tongues of a system have no index, and no count");
   LineEquation equation(scene, line);
   // every coefficient is monotone on the line: the sums are largest with the larger of both ends
   const LinePoint low = equation.at(line.from), high = equation.at(line.to);
   const double amplitudes =
-      change_between({0.0, 0.0, low.variation}, {}) + change_between({0.0, 0.0, high.variation}, {});
+      change_between({.variation = low.variation}, {}) + change_between({.variation = high.variation}, {});
   const double most = std::max(low.mean, high.mean) + amplitudes;
   const double count = most < 0.0 ? 1.0 : std::floor(2.0 * std::sqrt(most) * (1.0 + 1e-12)) + 1.0;
   require(count <= kLargestTongue + 1, "number of tongues on the line", count,
@@ -218,15 +92,27 @@ int tongue_count(const Scene& scene, const TongueLine& line) {
 }
 
 std::vector<TongueEdge> tongues(const Scene& scene, const TongueLine& line, const TongueOptions& options) {
+  const DefaultFloatingPoint environment;
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.count >= 0 && options.count <= kLargestTongue + 1, "count", options.count, "0 to 1001");
-  validate(scene, line);
+  if (!has_tongue_index(scene, line)) {
+    require(options.count == 0, "count", options.count, "0 where tongues have no index");
+    return system_tongues(scene, line, options);
+  }
   LineEquation equation(scene, line);
+  if (change_between(equation.at(line.from), equation.at(line.to)) == 0.0)
+    return {};  // one equation all along
+  std::optional<StabilityLine> verdicts;
+  if (damped(scene, line)) verdicts.emplace(scene, line.parameter, false);
   const int count = options.count > 0 ? options.count : tongue_count(scene, line);
   std::vector<TongueEdge> result;
-  for (int order = 0; order < count; ++order)
-    std::ranges::move(TongueOnLine(equation, order, line, options).edges(), std::back_inserter(result));
+  for (int order = 0; order < count; ++order) {
+    TongueOnLine tongue(equation, order, line, options);
+    std::ranges::move(
+        verdicts ? DampedTongue(equation, tongue, *verdicts, line, options).edges() : tongue.edges(),
+        std::back_inserter(result));
+  }
   return result;
 }
 

@@ -10,7 +10,7 @@
 #include "chart/reference_monodromy.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
-#include "strutt/chart/stability_chart.hpp"
+#include "strutt/chart/forecast.hpp"
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt {
@@ -229,9 +229,12 @@ double expected_seconds(const Scene& scene, const TradeoffRequest& request) {
   double seconds = 0.0;
   const auto points = static_cast<double>(request.points.rows.size());
   for (const Method method : request.methods) {
-    const double once = points * expected_seconds_per_point(method_for(model, method), model);
-    seconds += static_cast<double>(request.tolerances.size()) *
-               (2.0 * once + request.repeats * std::max(request.seconds, once));
+    for (const double tolerance : request.tolerances) {
+      const double once = points * forecast_point(model, {.tolerance = tolerance, .method = method},
+                                                  {.winding = false, .matrix = false})
+                                        .seconds;
+      seconds += 2.0 * once + request.repeats * std::max(request.seconds, once);
+    }
   }
   return seconds;
 }

@@ -7,6 +7,7 @@
 
 #include "floquet/sturm_count.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -222,6 +223,7 @@ void validate(int first, int last, double q) {
 }  // namespace
 
 std::vector<CharacteristicPair> characteristic_values(int first, int last, double q) {
+  const DefaultFloatingPoint environment;
   validate(first, last, q);
   const ParityPair even(Parity::even, first, last, std::abs(q));
   const ParityPair odd(Parity::odd, std::max(first, 1), last, std::abs(q));

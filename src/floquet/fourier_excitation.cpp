@@ -1,6 +1,7 @@
 #include "floquet/fourier_excitation.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "strutt/base/error.hpp"
 
@@ -17,20 +18,31 @@ void require_harmonics(const PeriodicFunction& coefficient) {
 
 }  // namespace
 
-FourierExcitation::FourierExcitation(const PeriodicFunction& coefficient) {
+FourierExcitation::FourierExcitation(const PeriodicFunction& coefficient, double relative_error) {
   require_harmonics(coefficient);
   const auto centre = coefficient.even_centre();
   even = centre.has_value();
   const PeriodicFunction seen = even ? coefficient.centred(*centre) : coefficient;
   harmonics.resize(static_cast<std::size_t>(seen.highest_order()) + 1, 0.0);
+  errors.resize(harmonics.size(), 0.0);
   for (const Harmonic& h : seen.harmonics()) {
-    harmonics[static_cast<std::size_t>(h.order)] = 0.5 * std::complex<double>(h.cosine, -h.sine);
+    const auto m = static_cast<std::size_t>(h.order);
+    harmonics[m] = 0.5 * std::complex<double>(h.cosine, -h.sine);
+    errors[m] = relative_error * std::abs(harmonics[m]) * (1.0 + 4.0 * kUnit);
+    if (!even || *centre == 0.0) continue;
     // turned by order x centre, which rounds; the sines that are left are dropped
-    if (even && *centre != 0.0)
-      change += std::abs(h.cosine) * (coefficient.asymmetry(*centre) + (8.0 + 8.0 * h.order) * kUnit);
+    const double turning =
+        std::abs(h.cosine) * (coefficient.asymmetry(*centre) + (8.0 + 8.0 * h.order) * kUnit);
+    change += turning;
+    errors[m] += 0.5 * turning;
   }
   const double norm = matrix(HillBasis::bloch, 0.0).norm();
   require(norm <= kLargestNorm * (1.0 + 1e-9), "sum of the amplitudes of the harmonics", norm, "0 to 1e6");
+}
+
+double FourierExcitation::uncertainty() const {
+  return 2.0 * std::accumulate(errors.begin(), errors.end(), 0.0) *
+         (1.0 + static_cast<double>(errors.size()) * kUnit);
 }
 
 }  // namespace strutt

@@ -9,6 +9,7 @@
 #include "floquet/discriminant_kernel.hpp"
 #include "floquet/propagators.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -87,6 +88,7 @@ void HillDiscriminants::attempt(HillFamily& family, const HillBatch& batch, std:
 }
 
 void HillDiscriminants::compute(const HillBatch& batch, std::span<double> value, std::span<double> error) {
+  const DefaultFloatingPoint environment;
   const std::size_t lanes = batch.mean.size();
   if (value.size() != lanes || error.size() != lanes)
     throw InvalidInput("value, error", std::to_string(value.size()), "as long as the means");

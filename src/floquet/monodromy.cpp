@@ -5,6 +5,7 @@
 
 #include "floquet/propagators.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -71,15 +72,16 @@ HillMonodromy MonodromyEngine::compute(const HillEquation& equation, const Monod
 
 std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation> equations,
                                                     const MonodromyOptions& options) {
+  const DefaultFloatingPoint environment;
   options.validate();
   std::vector<HillMonodromy> results(equations.size());
-  std::vector<HillEquation> smooth;  // those that go side by side
+  std::vector<const HillEquation*> smooth;  // those that go side by side
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < equations.size(); ++i) {
     equations[i].validate();
     const Method method = method_for(equations[i], options.method);
     if (method == Method::propagator) {
-      smooth.push_back(equations[i]);
+      smooth.push_back(&equations[i]);
       places.push_back(i);
     } else {
       results[i] = hill_monodromy(*workspace_, equations[i], method, options);
@@ -89,12 +91,13 @@ std::vector<HillMonodromy> MonodromyEngine::compute(std::span<const HillEquation
   for (std::size_t j = 0; j < found.size(); ++j) {
     auto& result = results[places[j]] = std::move(found[j]);
     if (!needs_sundials(result.outcome, options.method)) continue;
-    result = better_of(std::move(result), hill_monodromy(*workspace_, smooth[j], Method::arkode, options));
+    result = better_of(std::move(result), hill_monodromy(*workspace_, *smooth[j], Method::arkode, options));
   }
   return results;
 }
 
 Monodromy MonodromyEngine::compute(const LinearPeriodicSystem& system, const MonodromyOptions& options) {
+  const DefaultFloatingPoint environment;
   system.validate();
   options.validate();
   const Method method = method_for(system, options.method);

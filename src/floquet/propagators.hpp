@@ -29,8 +29,8 @@ HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
                              const MonodromyOptions& options);
 /// By Method::propagator, all at once.
 std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
-                                                 std::span<const HillEquation> equations,
-                                                 const MonodromyOptions& options);
+                                              std::span<const HillEquation* const> equations,
+                                              const MonodromyOptions& options);
 Monodromy system_monodromy(PropagatorPool& pool, const LinearPeriodicSystem& system, Method method,
                            const MonodromyOptions& options);
 
@@ -40,7 +40,6 @@ struct Propagators {
   std::vector<BasicBoundedMatrix<Matrix>> factors;  // with the bounds of their rounding
   std::vector<BasicBoundedMatrix<Matrix>>
       checks;  // the same from the second runs, without bounds; empty where no second runs are needed
-  double truncation_share = kTruncationSafety;  // see add_truncation
   Outcome outcome = Outcome::converged;
   IntegrationCost cost, estimate_cost;
 
@@ -48,14 +47,9 @@ struct Propagators {
     if (outcome == Outcome::converged) outcome = step.outcome;
     cost += step.cost;
     estimate_cost += step.estimate_cost;
-    append(
-        {{std::move(step.matrix.value.mantissa), step.matrix.value.exponent}, std::move(step.matrix.error)},
-        {std::move(step.check.mantissa), step.check.exponent});
-  }
-
-  void append(BasicBoundedMatrix<Matrix>&& factor, BasicScaledMatrix<Matrix>&& check) {
-    factors.push_back(std::move(factor));
-    checks.push_back({.value = std::move(check)});
+    factors.push_back(
+        {{std::move(step.matrix.value.mantissa), step.matrix.value.exponent}, std::move(step.matrix.error)});
+    checks.push_back({.value = {std::move(step.check.mantissa), step.check.exponent}});
   }
 };
 
@@ -73,9 +67,9 @@ BasicMonodromy<Matrix> combined(const Propagators<Matrix>& propagators, const Pu
   result.outcome = propagators.outcome;
   if (!propagators.checks.empty()) {
     const BasicMonodromy<Matrix> check = put_together(propagators.checks);
-    add_truncation(result.matrix, check.matrix.value, propagators.truncation_share);
-    add_truncation(result.undamped, check.undamped.value, propagators.truncation_share);
-    if (result.half) add_truncation(*result.half, check.half->value, propagators.truncation_share);
+    add_truncation(result.matrix, check.matrix.value);
+    add_truncation(result.undamped, check.undamped.value);
+    if (result.half) add_truncation(*result.half, check.half->value);
   }
   return result;
 }

@@ -62,7 +62,7 @@ class ResonantElimination {
         x_(x),
         direction_(direction),
         width_(matrix.width()),
-        norm_(matrix.norm() * (1.0L + 1e-15L)) {
+        norm_((matrix.norm() + uncertainty(matrix)) * (1.0L + 1e-15L)) {
     last_ = last_mode();
     first_ = -last_ - order % 2;  // frequencies k + exponent: as far to the left as to the right
     plus_ = order / 2;
@@ -101,8 +101,15 @@ class ResonantElimination {
     return k + width_;
   }
 
-  Entry constant(const std::complex<double>& z) const {
+  static long double uncertainty(const HillMatrix& matrix) {
+    long double sum = 0;
+    for (const double error : matrix.errors) sum += 2.0L * error;
+    return sum;
+  }
+
+  Entry constant(const std::complex<double>& z, double radius) const {
     Entry entry;
+    entry.value.radius = radius;
     if constexpr (std::is_same_v<Value, Real>)
       entry.value.middle = Real(z.real());
     else
@@ -139,7 +146,8 @@ class ResonantElimination {
     const int m = std::abs(i - j);
     if (m == 0 || m > width_) return {};
     const auto harmonic = matrix_.harmonics[static_cast<std::size_t>(m)];
-    return constant(i > j ? -harmonic : -std::conj(harmonic));
+    const double error = matrix_.errors.empty() ? 0.0 : matrix_.errors[static_cast<std::size_t>(m)];
+    return constant(i > j ? -harmonic : -std::conj(harmonic), error);
   }
 
   /// The modes beyond an end, at least `beyond` above x, take a matrix between 0 and norm^2/beyond from the

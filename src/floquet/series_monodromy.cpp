@@ -43,9 +43,11 @@ void attempt(SeriesPropagators& tables, const std::vector<UndampedHill>& equatio
 }  // namespace
 
 std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
-                                              std::span<const HillEquation> equations,
+                                              std::span<const HillEquation* const> equations,
                                               const MonodromyOptions& options) {
-  const std::vector<UndampedHill> undamped(equations.begin(), equations.end());
+  std::vector<UndampedHill> undamped;
+  undamped.reserve(equations.size());
+  for (const auto* equation : equations) undamped.emplace_back(*equation);
   std::vector<HillMonodromy> results(equations.size());
   std::vector<std::size_t> wanted(equations.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/floquet/winding.hpp"
 
 namespace strutt {
@@ -74,6 +75,7 @@ void finish(Stability& result, const Margin& margin, double growth, double perio
 }  // namespace
 
 Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts) {
+  const DefaultFloatingPoint environment;
   const double period = equation.period();
   auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;
@@ -92,6 +94,7 @@ Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, c
 }
 
 Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts) {
+  const DefaultFloatingPoint environment;
   auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;
   try {
@@ -145,6 +148,7 @@ Stability analyse(MonodromyEngine& engine, const LinearModel& model, const Monod
 
 std::vector<Stability> analyse(MonodromyEngine& engine, std::span<const LinearModel> models,
                                const MonodromyOptions& options, const StabilityParts& parts) {
+  const DefaultFloatingPoint environment;
   std::vector<Stability> results(models.size());
   std::vector<HillEquation> equations;
   std::vector<std::size_t> places;

@@ -5,12 +5,15 @@
 
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/hill_matrix.hpp"
+#include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
+constexpr double kLargestSquareWave = 1e6;
 
 /// Eigenvalue `index` of a matrix, whose square of the frequency is known: |eigenvalue - square| <= norm of
 /// V.
@@ -88,16 +91,24 @@ TongueEdges tongue(const FourierExcitation& v, int order) {
 }  // namespace
 
 std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int first, int last) {
+  const DefaultFloatingPoint environment;
   require(first >= 0 && first <= kLargestTongue, "first", first, "0 to 1000");
   require(last >= first && last <= kLargestTongue, "last", last, "first to 1000");
-  const FourierExcitation v(coefficient);
   std::vector<TongueEdges> edges;
+  if (is_square_wave(coefficient)) {
+    const double amplitude = coefficient.deviation();
+    require(amplitude <= kLargestSquareWave, "amplitude of the square wave", amplitude, "at most 1e6");
+    for (int order = first; order <= last; ++order) edges.push_back(square_wave_tongue(amplitude, order));
+    return edges;
+  }
+  const FourierExcitation v(coefficient);
   for (int order = first; order <= last; ++order)
     edges.push_back(v.even ? even_tongue(v, order) : tongue(v, order));
   return edges;
 }
 
 CharacteristicValue mean_of_winding(const PeriodicFunction& coefficient, double winding) {
+  const DefaultFloatingPoint environment;
   require(winding > 0.0 && winding < 0.5 * kLargestTongue, "winding", winding, "above 0, below 500");
   require(2.0 * winding != std::floor(2.0 * winding), "winding", winding, "between two multiples of 1/2");
   const FourierExcitation v(coefficient);

@@ -7,7 +7,9 @@
 
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/resonant_block.hpp"
+#include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -40,9 +42,11 @@ struct Enclosure {
 template <typename Real, typename Value>
 class WidthSearch {
  public:
-  WidthSearch(const HillMatrix& matrix, const TongueEdges& edges) : matrix_(matrix), order_(edges.order) {
-    lower_ = ball(*edges.lower);
-    upper_ = ball(edges.upper);
+  /// `uncertainty`: what the coefficients may move the edges.
+  WidthSearch(const HillMatrix& matrix, const TongueEdges& edges, double uncertainty)
+      : matrix_(matrix), order_(edges.order) {
+    lower_ = ball(*edges.lower, uncertainty);
+    upper_ = ball(edges.upper, uncertainty);
   }
 
   void run(Enclosure& enclosure) {
@@ -58,7 +62,9 @@ class WidthSearch {
   }
 
  private:
-  static Ball<Real> ball(const CharacteristicValue& x) { return {Real(x.value), x.error * Ball<Real>::kUp}; }
+  static Ball<Real> ball(const CharacteristicValue& x, double uncertainty) {
+    return {Real(x.value), (static_cast<long double>(x.error) + uncertainty) * Ball<Real>::kUp};
+  }
 
   ResonantBlock<Value> at(const Ball<Real>& x) const {
     return ResonantElimination<Real, Value>(matrix_, order_, x, Direction::mean).run();
@@ -128,9 +134,9 @@ void search(const FourierExcitation& v, const TongueEdges& edges, Enclosure& enc
   const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
   using Real = Wide<digits>;
   if (v.even)
-    WidthSearch<Real, Real>(matrix, edges).run(enclosure);
+    WidthSearch<Real, Real>(matrix, edges, v.uncertainty()).run(enclosure);
   else
-    WidthSearch<Real, WideComplex<Real>>(matrix, edges).run(enclosure);
+    WidthSearch<Real, WideComplex<Real>>(matrix, edges, v.uncertainty()).run(enclosure);
 }
 
 /// |dh/dx| / |dh/dnu| in the middle of a tongue.
@@ -155,32 +161,35 @@ int common_order(const FourierExcitation& v) {
 
 }  // namespace
 
-TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges) {
+TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges,
+                         double coefficient_error) {
+  const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
-  const FourierExcitation v(coefficient);
+  if (is_square_wave(coefficient))
+    return square_wave_width(coefficient.deviation(), edges, coefficient_error);
+  const FourierExcitation v(coefficient, coefficient_error);
   const int divisor = common_order(v);
   // the two modes do not meet
   if (divisor == 0 || edges.order % divisor != 0) return {};
   const auto &low = *edges.lower, &high = edges.upper;
   const long double difference = static_cast<long double>(high.value) - low.value;
-  const long double error = static_cast<long double>(high.error) + low.error;
+  const long double error = static_cast<long double>(high.error) + low.error + 2.0L * v.uncertainty();
   Enclosure enclosure;
   enclosure.narrow(difference - error, difference + error);
   search<34>(v, edges, enclosure);
-  search<110>(v, edges, enclosure);
-  search<350>(v, edges, enclosure);
-  TongueWidth width = enclosure.width();
-  // the coefficient is turned to its even centre with a rounding, which counts once in each of the factors of
-  // beta
-  if (v.change > 0.0)
-    width.relative_error += (edges.order + 1) * v.change / v.matrix(HillBasis::bloch, 0.0).norm();
-  return width;
+  if (v.uncertainty() == 0.0) {  // more digits than the coefficients have are of no use
+    search<110>(v, edges, enclosure);
+    search<350>(v, edges, enclosure);
+  }
+  return enclosure.width();
 }
 
 double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
                             const TongueWidth& width) {
+  const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   if (width.value == 0.0 || width.relative_error >= 1.0) return 0.0;
+  if (is_square_wave(coefficient)) return square_wave_growth(coefficient.deviation(), edges);
   const FourierExcitation v(coefficient);
   const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
   using Real = Wide<34>;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t size_of(int order) {
-  require(order >= 0 && order <= kMostSeriesOrder, "order of the series", order, "0 to 100");
+  require(order >= 0, "order of the series", order, "0 or more");
   return static_cast<std::size_t>(order) + 1;
 }
 
@@ -29,20 +29,18 @@ std::vector<Rational> rationals(const Series& series) {
   return result;
 }
 
-/// T/T0 of V = phi^2/2 + ... (`potential` up to order + 2).
+/// T/T0 of V = phi^2/2 + ... (`potential` up to order + 2). By Lagrange's inversion coefficient n of
+/// phi(xi), xi = phi S^(1/2), is 1/n times coefficient n - 1 of S^(-n/2).
 Series period_by_energy(const Series& potential, std::size_t size) {
-  Series shape(size);  // 2 V/phi^2 = 1 + ...
+  Series shape(size);  // S = 2 V/phi^2 = 1 + ...
   for (std::size_t n = 0; n < size; ++n) shape[n] = 2 * potential[n + 2];
-  const Series root = square_root(shape);
-  Series xi(size + 1);  // xi = phi sqrt(2 V/phi^2)
-  std::copy(root.begin(), root.end(), xi.begin() + 1);
-  const Series phi = inverse(xi);
-
-  Series twice_energy(size);  // xi^2 = 2 V
+  Series by_energy((size - 1) / 2 + 1);  // T/T0 in powers of 2 E
+  for (std::size_t n = 0; n < by_energy.size(); ++n) {
+    const Series needed(shape.begin(), shape.begin() + static_cast<std::ptrdiff_t>(2 * n + 1));
+    by_energy[n] = power(needed, -Exact(2 * n + 1) / 2).back() * binomial_central(static_cast<int>(n));
+  }
+  Series twice_energy(size);  // 2 V(A)
   for (std::size_t n = 0; n < size; ++n) twice_energy[n] = 2 * potential[n];
-  Series by_energy(size / 2 + 1);  // T/T0 in powers of 2 E
-  for (std::size_t n = 0; 2 * n < size; ++n)
-    by_energy[n] = phi[2 * n + 1] * (2 * n + 1) * binomial_central(static_cast<int>(n));
   return composition(by_energy, twice_energy);
 }
 
@@ -50,7 +48,7 @@ Series period_by_energy(const Series& potential, std::size_t size) {
 Series period_by_lindstedt(const Series& potential, int order) {
   Series force(potential.size() - 1);
   for (std::size_t n = 1; n < potential.size(); ++n) force[n - 1] = potential[n] * n;
-  return reciprocal(square_root(lindstedt_frequency_squared(force, order)));
+  return power(lindstedt_frequency_squared(force, order), -Exact(1) / 2);
 }
 
 FrequencySeries series_of(const Series& potential, int order, SeriesMethod method) {

@@ -1,5 +1,7 @@
 #include "free_pendulum/rational_series.hpp"
 
+#include <algorithm>
+
 namespace strutt {
 
 Series product(const Series& a, const Series& b) {
@@ -16,40 +18,36 @@ Series reciprocal(const Series& a) {
   Series b(a.size());
   b[0] = 1 / a[0];
   for (std::size_t n = 1; n < a.size(); ++n) {
-    for (std::size_t i = 1; i <= n; ++i) b[n] -= a[i] * b[n - i];
+    for (std::size_t i = 1; i <= n; ++i)
+      if (a[i] != 0 && b[n - i] != 0) b[n] -= a[i] * b[n - i];
     b[n] *= b[0];
   }
   return b;
 }
 
-Series square_root(const Series& a) {
-  Series b(a.size());
-  b[0] = 1;
-  for (std::size_t n = 1; n < a.size(); ++n) {
-    b[n] = a[n];
-    for (std::size_t i = 1; i < n; ++i) b[n] -= b[i] * b[n - i];
-    b[n] /= 2;
-  }
-  return b;
-}
-
 Series composition(const Series& outer, const Series& inner) {
-  Series sum(inner.size());
-  for (std::size_t n = std::min(outer.size(), inner.size()); n-- > 0;) {
+  // Horner's rule. What stands at step n is still to be multiplied by the n-th power of `inner`: its last
+  // coefficients would be cut off.
+  std::size_t lowest = 1;
+  while (lowest < inner.size() && inner[lowest] == 0) ++lowest;
+  const std::size_t terms = std::min(outer.size(), (inner.size() - 1) / lowest + 1);
+  Series sum;
+  for (std::size_t n = terms; n-- > 0;) {
+    sum.resize(inner.size() - n * lowest);
     sum = product(sum, inner);
     sum[0] += outer[n];
   }
   return sum;
 }
 
-Series inverse(const Series& a) {
-  // Lagrange: coefficient n of the inverse is 1/n times coefficient n - 1 of (x/a)^n.
-  Series quotient(a.begin() + 1, a.end());
-  quotient = reciprocal(quotient);
-  Series b(a.size()), power = quotient;
+Series power(const Series& a, const Exact& exponent) {
+  // b a' exponent = b' a, coefficient by coefficient (J. C. P. Miller).
+  Series b(a.size());
+  b[0] = 1;
   for (std::size_t n = 1; n < a.size(); ++n) {
-    b[n] = power[n - 1] / n;
-    power = product(power, quotient);
+    for (std::size_t i = 1; i <= n; ++i)
+      if (a[i] != 0 && b[n - i] != 0) b[n] += (i * (exponent + 1) - n) * a[i] * b[n - i];
+    b[n] /= n;
   }
   return b;
 }

@@ -12,9 +12,8 @@ using Series = std::vector<Exact>;
 
 Series product(const Series& a, const Series& b);
 Series reciprocal(const Series& a);                            ///< a[0] != 0
-Series square_root(const Series& a);                           ///< a[0] = 1
+Series power(const Series& a, const Exact& exponent);          ///< a[0] = 1
 Series composition(const Series& outer, const Series& inner);  ///< outer(inner(x)), inner[0] = 0
-Series inverse(const Series& a);                               ///< b with a(b(x)) = x; a[0] = 0, a[1] = 1
 Exact binomial_central(int n);                                 ///< binomial(2n, n)/4^n
 
 }  // namespace strutt

@@ -45,13 +45,13 @@ IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wante
 }  // namespace
 
 template <typename Matrix>
-void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check, double share) {
+void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check) {
   const Matrix same_scale = times_power_of_two(check.mantissa, check.exponent - matrix.value.exponent);
-  matrix.error.array() += share * (matrix.value.mantissa - same_scale).cwiseAbs().maxCoeff();
+  matrix.error.array() += kTruncationSafety * (matrix.value.mantissa - same_scale).cwiseAbs().maxCoeff();
 }
 
-template void add_truncation(BoundedMatrix&, const ScaledMatrix&, double);
-template void add_truncation(BoundedMatrix2&, const ScaledMatrix2&, double);
+template void add_truncation(BoundedMatrix&, const ScaledMatrix&);
+template void add_truncation(BoundedMatrix2&, const ScaledMatrix2&);
 
 LinearPropagator::LinearPropagator(int states, Backend backend)
     : states_(states),

@@ -9,6 +9,7 @@
 #include "integrate/motion_equation.hpp"
 #include "integrate/motion_pass.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -46,6 +47,7 @@ void MotionOptions::validate() const {
 Motion integrate_motion(const PhysicalPendulum& pendulum, const Excitation* support, const Excitation* moment,
                         const MotionStart& start, std::span<const double> times,
                         const MotionOptions& options) {
+  const DefaultFloatingPoint environment;
   options.validate();
   require(std::abs(start.angle) <= 1e9, "angle", start.angle, "between -1e9 and 1e9 rad");
   require(std::isfinite(start.velocity), "velocity", start.velocity, "finite");

@@ -19,6 +19,8 @@ class CsvWriter : public ChartWriter {
     for (std::size_t j = 0; j < strip.rows; ++j) write_row(strip, j);
   }
 
+  void conclude(const Provenance& done) override { file_.write(comment_lines(done)); }
+
   void prepare() override {
     order_.finish();
     file_.prepare();

@@ -37,6 +37,8 @@ class Hdf5Writer : public ChartWriter {
     for (std::size_t l = 0; l < layers_.size(); ++l) write_layer(l, strip);
   }
 
+  void conclude(const Provenance& done) override { write_attribute(file_, "done", json_text(done), sink_); }
+
   void prepare() override {
     if (prepared_) return;
     order_.finish();

@@ -55,7 +55,7 @@ std::string chart_title(const ChartDescription& description) {
   return model.empty() ? "Stability chart" : "Stability chart: " + model;
 }
 
-std::string chart_metadata(const ChartDescription& description) {
+std::string chart_metadata(const ChartDescription& description, const Provenance& done) {
   const ChartRequest& request = description.request;
   Json layers = Json::object();
   for (const Layer layer : request.layers) layers[std::string(to_string(layer))] = layer_json(layer);
@@ -64,7 +64,8 @@ std::string chart_metadata(const ChartDescription& description) {
                   {"x", axis_json(request.x, description.x)},
                   {"y", axis_json(request.y, description.y)},
                   {"layers", layers},
-                  {"provenance", Json::parse(json_text(description.provenance))}};
+                  {"provenance", Json::parse(json_text(description.provenance))},
+                  {"done", Json::parse(json_text(done))}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

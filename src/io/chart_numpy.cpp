@@ -39,9 +39,9 @@ class NpyWriter : public ChartWriter {
       : file_(path),
         metadata_(with_suffix(path, ".json")),
         metadata_path_(with_suffix(path, ".json")),
+        description_(description),
         layer_(description.request.layers.front()),
         order_(description.request) {
-    metadata_.write(chart_metadata(description));
     file_.write(layer_header(layer_, description.request));
   }
 
@@ -50,10 +50,15 @@ class NpyWriter : public ChartWriter {
     file_.write(layer_bytes(layer_, strip.values[0], buffer_));
   }
 
+  void conclude(const Provenance& done) override { done_ = done; }
+
   void prepare() override {
+    if (prepared_) return;
     order_.finish();
+    metadata_.write(chart_metadata(description_, done_));
     file_.prepare();
     metadata_.prepare();
+    prepared_ = true;
   }
 
   void commit() override {
@@ -72,31 +77,34 @@ class NpyWriter : public ChartWriter {
   OutputFile file_;
   OutputFile metadata_;
   std::filesystem::path metadata_path_;
+  ChartDescription description_;
+  Provenance done_;
   Layer layer_;
   StripOrder order_;
   std::string buffer_;
+  bool prepared_ = false;
 };
 
-/// An archive of arrays. All sizes are known at the beginning, so each strip goes to its place in every member.
+/// An archive of arrays. All sizes but that of the metadata, which comes last, are known at the beginning,
+/// so each strip goes to its place in every member.
 class NpzWriter : public ChartWriter {
  public:
   NpzWriter(const std::filesystem::path& path, const ChartDescription& description)
-      : file_(path), request_(description.request), order_(description.request) {
+      : file_(path), description_(description), request_(description.request), order_(description.request) {
     const auto x = axis_array(request_.x), y = axis_array(request_.y);
-    const auto metadata = chart_metadata(description);
-    std::vector<ZipMember> members{{"x.npy", x.size()}, {"y.npy", y.size()}, {"meta.json", metadata.size()}};
+    std::vector<ZipMember> members{{"x.npy", x.size()}, {"y.npy", y.size()}};
     std::vector<std::string> headers;
     for (const Layer layer : request_.layers) {
       headers.push_back(layer_header(layer, request_));
       const std::uint64_t data = std::uint64_t{request_.x.points} * request_.y.points * cell_bytes(layer);
       members.push_back({std::string(to_string(layer)) + ".npy", headers.back().size() + data});
     }
-    layout_ = ZipLayout(std::move(members));
-    crcs_.resize(layout_.count());
-    written_.resize(layout_.count());
+    members_ = std::move(members);
+    layout_ = ZipLayout(members_);
+    crcs_.resize(layout_.count() + 1);
+    written_.resize(layout_.count() + 1);
     append(0, x);
     append(1, y);
-    append(2, metadata);
     for (std::size_t l = 0; l < headers.size(); ++l) append(kFirstLayer + l, headers[l]);
   }
 
@@ -107,9 +115,15 @@ class NpzWriter : public ChartWriter {
     }
   }
 
+  void conclude(const Provenance& done) override { done_ = done; }
+
   void prepare() override {
     if (prepared_) return;
     order_.finish();
+    const auto metadata = chart_metadata(description_, done_);
+    members_.push_back({"meta.json", metadata.size()});
+    layout_ = ZipLayout(members_);  // what was written before stays where it is
+    append(members_.size() - 1, metadata);
     for (std::size_t m = 0; m < layout_.count(); ++m) {
       file_.write_at(layout_.header_offset(m), layout_.local_header(m, crcs_[m]));
     }
@@ -124,7 +138,7 @@ class NpzWriter : public ChartWriter {
   }
 
  private:
-  static constexpr std::size_t kFirstLayer = 3;
+  static constexpr std::size_t kFirstLayer = 2;
 
   static std::string axis_array(const Axis& axis) {
     const auto values = axis_values(axis);
@@ -140,8 +154,11 @@ class NpzWriter : public ChartWriter {
   }
 
   OutputFile file_;
+  ChartDescription description_;
+  Provenance done_;
   ChartRequest request_;
   StripOrder order_;
+  std::vector<ZipMember> members_;
   ZipLayout layout_{{}};
   std::vector<std::uint32_t> crcs_;
   std::vector<std::uint64_t> written_;

@@ -44,8 +44,8 @@ std::string_view layer_bytes(Layer layer, const std::vector<double>& values, std
 /// Bytes of one cell of the layer in binary files.
 std::size_t cell_bytes(Layer layer);
 
-/// `support.frequency`, `rad/s` and so on, names of categories, and provenance, as JSON text.
-std::string chart_metadata(const ChartDescription& description);
+/// `support.frequency`, `rad/s` and so on, names of categories, provenance, and what was done, as JSON text.
+std::string chart_metadata(const ChartDescription& description, const Provenance& done);
 
 /// What the chart shows, in words; takes the entries `title` or `model` of the provenance if there are any.
 std::string chart_title(const ChartDescription& description);

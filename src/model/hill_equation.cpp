@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 
@@ -34,14 +35,17 @@ void HillEquation::validate() const {
 }
 
 HillEquation mathieu_delta_epsilon(double delta, double epsilon, double damping) {
+  const DefaultFloatingPoint environment;
   return {1.0, damping, PeriodicFunction::fourier(delta, {{1, epsilon, 0.0}})};
 }
 
 HillEquation mathieu_a_q(double a, double q, double damping) {
+  const DefaultFloatingPoint environment;
   return {2.0, damping, PeriodicFunction::fourier(a / 4.0, {{1, -q / 2.0, 0.0}})};
 }
 
 HillEquation hill_equation(double period, const PeriodicFunction& w, double damping) {
+  const DefaultFloatingPoint environment;
   require(period > 0.0 && std::isfinite(period), "period", period, "a finite number > 0");
   const double unit = period / (2.0 * std::numbers::pi);  // of canonical time
   auto canonical = w.scaled(unit * unit);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -16,6 +17,7 @@ constexpr double kCoefficientError = 8.0 * 0x1p-53;
 
 LinearisedPendulum linearise(const PhysicalPendulum& pendulum, Equilibrium about, const Excitation* support,
                              const Excitation* moment) {
+  const DefaultFloatingPoint environment;
   pendulum.validate();
   const double sign = about == Equilibrium::hanging ? 1.0 : -1.0;
   const double alpha_squared = pendulum.alpha_squared();

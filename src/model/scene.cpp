@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "model/harmonic_orders.hpp"
 #include "model/parameter_table.hpp"
 
@@ -142,6 +143,7 @@ std::optional<Excitation> moment(const Scene& scene) {
 }
 
 LinearModel linear_model(const Scene& scene) {
+  const DefaultFloatingPoint environment;
   if (scene.linear) return *scene.linear;
   if (scene.mathieu) {
     const auto& m = *scene.mathieu;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "io/scratch.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 namespace strutt::test {
@@ -188,7 +189,8 @@ TEST_CASE("a table of points that is wrong is refused with line and column", "[a
 
 TEST_CASE("a value that the model cannot have is refused with line and column", "[apps][bad_input]") {
   const std::string body = "[pendulum]\nshape = \"body\"\ncentroid = 0.5\ninertia = 0.4\n";
-  const std::string linear = "[linear]\nperiod = 1\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1, 0], [0, 2]] }\n";
+  const std::string linear =
+      "[linear]\nperiod = 1\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1, 0], [0, 2]] }\n";
   struct Point {
     std::string scene, table, says;
   };
@@ -250,7 +252,7 @@ TEST_CASE("harmless varieties of a scene mean the same", "[apps][bad_input]") {
   CHECK(answer("[mathieu]\ndelta = 2." + std::string(300, '0') + "1\nepsilon = 0.5\n") == plain);
   CHECK(answer("[mathieu]\ndelta = 1." + std::string(300, '9') + "\nepsilon = 0.5\n") == plain);
   CHECK(answer("[mathieu]\ndelta = 2.0\nepsilon = 0.5\n",
-               {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "LOCPATH=" STRUTT_LOCALES}) == plain);
+               {"LC_ALL=de_DE.UTF-8", "LANG=de_DE.UTF-8", "LOCPATH=" + locales_directory()}) == plain);
 }
 
 TEST_CASE("harmless varieties of a table mean the same", "[apps][bad_input]") {

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 
 #include "io/scratch.hpp"
 #include "support/program.hpp"
@@ -120,7 +121,7 @@ TEST_CASE("numbers in CSV and JSON read back to the bits of the binary file", "[
   }
 }
 
-TEST_CASE("every format has the same bytes for any number of threads", "[apps][chart]") {
+TEST_CASE("every format has the same bytes for any number of threads", "[apps][chart][extreme][N48]") {
   const ScratchDirectory directory;
   for (const std::string ending : {".csv", ".npy", ".npz", ".h5", ".json"}) {
     std::vector<std::string> contents;
@@ -218,11 +219,56 @@ TEST_CASE("a figure comes as PNG, SVG and PDF", "[apps][chart][figure]") {
   CHECK(pdf.starts_with("%PDF-"));
 }
 
+TEST_CASE("every format says by which methods its cells came about", "[apps][chart]") {
+  const ScratchDirectory directory;
+  // delta = 0 and 1/4 are edges where epsilon = 0, which only the closed form proves
+  const Words words = chart("0:0.5:201", "0:1:200", {"--layers", "verdict"});
+  for (const std::string ending : {".csv", ".npy", ".npz", ".h5", ".json"}) {
+    Words all = words;
+    all.insert(all.end(), {"-o", "c" + ending});
+    if (ending == ".json") all.emplace_back("--json");
+    CHECK(strutt(all, in(directory)).code == 0);
+    const std::string text = content_of(directory / (ending == ".npy" ? "c.npy.json" : "c" + ending));
+    INFO(ending);
+    CHECK((text.find("surrogate 40198, exact 2") != std::string::npos));
+    CHECK((text.find("1 box, degrees up to ") != std::string::npos));
+  }
+  const auto json = nlohmann::json::parse(content_of(directory / "c.json"));
+  CHECK(json["done"]["cells by method"] == "surrogate 40198, exact 2");
+  CHECK(json["provenance"]["method"] == "surrogate");
+  CHECK(csv_comment(content_of(directory / "c.csv"), "method") == "surrogate");
+  CHECK(number(csv_comment(content_of(directory / "c.csv"), "largest error")) <= 1e-9);
+}
+
+TEST_CASE("the dry run of a chart shows the plan that auto makes", "[apps][chart][plan]") {
+  const auto plan = [](const std::string& points, const Words& more) {
+    Words words = chart("-1:5:" + points, "0:6:" + points, {"--dry-run"});
+    words.insert(words.end(), more.begin(), more.end());
+    return strutt(words, {.input = "[mathieu]\n"}).out;
+  };
+  const std::string big = plan("1000", {}), small = plan("20", {}),
+                    arkode = plan("1000", {"--method", "arkode"});
+  CHECK_THAT(big, Catch::Matchers::Contains("# method: surrogate\n"));
+  CHECK(std::regex_search(big, std::regex("# surrogate: about 1 box, degrees up to [0-9]+, [0-9]+ nodes, "
+                                          "100 % of the cells\n")));
+  CHECK_THAT(big, Catch::Matchers::Contains("# point by point: propagator, order ") &&
+                      Catch::Matchers::Contains(" steps, ") &&
+                      Catch::Matchers::Contains("# expected time: ") &&
+                      Catch::Matchers::Contains("# memory: "));
+  CHECK(plan("1000", {}) == big);
+  CHECK_THAT(small, Catch::Matchers::Contains("# method: propagator\n") &&
+                        Catch::Matchers::Contains("# surrogate: not used, the chart is small\n"));
+  CHECK_THAT(arkode,
+             Catch::Matchers::Contains("# method: arkode\n") && !Catch::Matchers::Contains("# surrogate"));
+}
+
 TEST_CASE("a chart by surrogate is the one point by point, and what cannot have one says why",
           "[apps][chart]") {
   const ScratchDirectory directory;
   const Words words = chart("-1:5:60", "0.1:6:50", {"--tolerance", "1e-9", "--layers", "verdict"});
-  const Result points = strutt(words, in(directory));
+  Words by_points = words;
+  by_points.insert(by_points.end(), {"--method", "propagator"});
+  const Result points = strutt(by_points, in(directory));
   Words interpolated = words;
   interpolated.insert(interpolated.end(), {"--method", "surrogate"});
   const Result surrogate = strutt(interpolated, in(directory));
@@ -233,7 +279,7 @@ TEST_CASE("a chart by surrogate is the one point by point, and what cannot have 
   interpolated.push_back("--dry-run");
   CHECK_THAT(strutt(interpolated, in(directory)).out,
              Catch::Matchers::Contains("# method: surrogate") &&
-                 Catch::Matchers::Contains(" boxes, degrees up to "));
+                 Catch::Matchers::Contains("# surrogate: about 1 box, degrees up to "));
 
   const std::string square = "[hill]\nperiod = 1\nwaveform = \"square\"\namplitude = 0.5\n";
   const Result refused = strutt({"chart", "-", "--method", "surrogate", "--x", "hill.mean=0:1:3", "--y",

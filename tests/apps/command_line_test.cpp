@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "io/scratch.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 namespace strutt::test {
@@ -172,7 +173,8 @@ TEST_CASE("outputs that do not fit are refused", "[apps][command_line]") {
   room.refuses({"period", "--amplitude", "1", "-o", "s.h5"}, 2, {"'s.h5'", "CSV"});
   room.refuses({"stability", "m.toml", "--json", "-o", "out.csv"}, 2, {"--json"});
   room.refuses({"stability", "-", "--points", "-"}, 2, {"--points", "standard input"});
-  room.refuses({"motion", "-", "--angle", "1", "--velocity", "0", "--times", "-"}, 2, {"--times", "standard input"});
+  room.refuses({"motion", "-", "--angle", "1", "--velocity", "0", "--times", "-"}, 2,
+               {"--times", "standard input"});
   room.refuses({"portrait", "-", "--starts", "-"}, 2, {"--starts", "standard input"});
   room.refuses({"period", "--scene", "-", "--points", "-"}, 2, {"--points", "standard input"});
 }
@@ -226,7 +228,7 @@ TEST_CASE("the example in the help of every command works", "[apps][command_line
     REQUIRE(begin != std::string::npos);
     const auto end = help.find("\n\n", begin);
     const ScratchDirectory directory;
-    directory.with("example.sh", "set -e\nstrutt() { '" STRUTT_PROGRAM "' \"$@\"; }\n" +
+    directory.with("example.sh", "set -e\nstrutt() { '" + program_path() + "' \"$@\"; }\n" +
                                      help.substr(begin + 9, end - begin - 9) + "\n");
     const std::string run = "cd '" + directory.path().string() + "' && sh example.sh > out.txt 2> err.txt";
     INFO(content_of(directory / "example.sh"));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/scratch.hpp"
+#include "support/paths.hpp"
 
 namespace {
 
@@ -16,7 +17,7 @@ struct Answer {
 /// Runs `strutt normal-form --points FILE`, the file holding `points`.
 Answer normal_form(const std::string& points, const std::string& flags = "") {
   const strutt::test::ScratchDirectory directory;
-  const std::string command = std::string(STRUTT_PROGRAM) + " normal-form --points " +
+  const std::string command = strutt::test::program_path() + " normal-form --points " +
                               directory.with("points.csv", points).string() + " " + flags + " 2>&1";
   FILE* const pipe = ::popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "io/scratch.hpp"
+#include "support/paths.hpp"
 
 namespace strutt {
 namespace {
@@ -24,7 +25,7 @@ struct Run {
 
 /// Runs the program in the directory.
 Run run(const ScratchDirectory& directory, const std::string& arguments) {
-  const std::string command = "cd '" + directory.path().string() + "' && '" + STRUTT_PROGRAM + "' " +
+  const std::string command = "cd '" + directory.path().string() + "' && '" + test::program_path() + "' " +
                               arguments + " > .out 2> .err < /dev/null";
   const int status = std::system(command.c_str());
   return {WEXITSTATUS(status), content_of(directory / ".out"), content_of(directory / ".err")};

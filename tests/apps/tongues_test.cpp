@@ -103,6 +103,46 @@ TEST_CASE("tongues writes JSON, with units in the scene's parameters", "[apps][t
   CHECK(width == Approx(double(json["rows"][1]["position"]) - double(json["rows"][0]["position"])));
 }
 
+TEST_CASE("tongues of damped scenes, square waves and systems", "[apps][tongues]") {
+  const Command damped("[mathieu]\nepsilon = 0.5\ndamping = 0.02\n");
+  auto rows = csv_rows(damped.run("mathieu.delta=-1:40").out);
+  REQUIRE(rows.size() == 6);  // the tongues from 3 on are closed
+  CHECK(rows[5][0] == "2");
+  CHECK(rows[5][6] == "propagator");
+  CHECK(damped.run("mathieu.delta=-1:40", {"--method", "propagator"}).code == 0);
+  CHECK(damped.run("mathieu.delta=-1:40", {"--method", "fourier"}).code == 2);
+
+  const Command square("[hill]\nperiod = 6.283185307179586\nwaveform = 'square'\namplitude = 4\n");
+  rows = csv_rows(square.run("hill.mean=4.9:5.1").out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[1][0] == "4");  // closed: both pieces turn by whole half turns at mean = 5
+  CHECK(rows[1][4] == "1");
+  CHECK(rows[1][6] == "exact");
+
+  const Command coupled(
+      "[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\n"
+      "stiffness = { mean = [[1.3, -0.3], [-0.3, 2.3]], "
+      "harmonics = [{ order = 1, cos = [[0.4, 0], [0, 0]] }] }\n");
+  const Result result = coupled.run("linear.period=1.8:3.4", {"--tolerance", "1e-10"});
+  CHECK(result.code == 0);
+  rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[0] == Words{"n", "edge", "position", "width", "width_relative_error", "error", "method",
+                         "outcome", "mechanism", "crossing"});
+  for (std::size_t i = 1; i < 7; ++i) {
+    CHECK(rows[i][0].empty());
+    CHECK(rows[i][8] == (i == 3 || i == 4 ? "complex" : "-1"));
+  }
+  CHECK(coupled.run("linear.period=1.8:3.4", {"--count", "2"}).code == 2);
+}
+
+TEST_CASE("a scene that has no tongues at all is a mistake of the file", "[apps][tongues]") {
+  const Command command("[hill]\nperiod = 1\nharmonics = [{ order = 1, cos = 1e9 }]\n");
+  CHECK(command.run("hill.mean=0:1").code == 3);
+  CHECK(Command("[mathieu]\ndamping = -1\n").run("mathieu.delta=0:1").code == 3);
+  CHECK(Command().run("mathieu.epsilon=0:1e9").code == 2);  // the line is to blame
+}
+
 TEST_CASE("tongues names the flag or the cell that is wrong", "[apps][tongues]") {
   const Command command;
   for (const char* along : {"mathieu.delta", "mathieu.delta=1", "mathieu.delta=2:1", "mathieu.delta=0:1:3",

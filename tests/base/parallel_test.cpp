@@ -32,6 +32,26 @@ TEST_CASE("parallel_for calls every index once", "[base][threads]") {
   CHECK(parallel_for(0, {.threads = kThreads}, [](std::size_t, int) { throw Stop{}; }));
 }
 
+TEST_CASE("parallel_for_ranges cuts the indices into ranges of the same length", "[base][threads]") {
+  for (const int threads : {1, kThreads}) {
+    for (const std::size_t most : {std::size_t{1}, std::size_t{7}, kCount, kCount + 1}) {
+      std::vector<std::atomic<int>> calls(kCount);
+      std::atomic<int> wrong{0};
+      CHECK(parallel_for_ranges(kCount, most, {.threads = threads},
+                                [&](std::size_t first, std::size_t last, int slot) {
+                                  const bool full = last - first == most || last == kCount;
+                                  wrong += first % most != 0 || last - first > most || !full || slot < 0;
+                                  for (std::size_t i = first; i < last; ++i) ++calls.at(i);
+                                }));
+      for (const auto& n : calls) wrong += n != 1;
+      INFO(threads << " threads, ranges of " << most);
+      CHECK(wrong == 0);
+    }
+  }
+  CHECK(parallel_for_ranges(0, 3, {.threads = kThreads},
+                            [](std::size_t, std::size_t, int) { throw Stop{}; }));
+}
+
 TEST_CASE("a slot is never shared at the same time", "[base][threads]") {
   const ParallelOptions options{.threads = kThreads};
   std::vector<std::atomic<bool>> busy(static_cast<std::size_t>(thread_count(options)));
@@ -109,7 +129,7 @@ TEST_CASE("one thread is a plain loop on the caller", "[base][threads]") {
   CHECK(std::is_sorted(order.begin(), order.end()));
 }
 
-TEST_CASE("results do not depend on the number of threads", "[base][threads]") {
+TEST_CASE("results do not depend on the number of threads", "[base][threads][extreme][N48]") {
   const auto compute = [](int threads) {
     std::vector<double> result(kCount);
     const ParallelOptions options{.threads = threads};

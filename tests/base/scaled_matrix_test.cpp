@@ -38,7 +38,7 @@ TEST_CASE("normalising moves powers of two only", "[base][scaled]") {
   CHECK(one.entry(0, 1) == 0.0);
 }
 
-TEST_CASE("products far outside the range of double", "[base][scaled]") {
+TEST_CASE("products far outside the range of double", "[base][scaled][extreme][N01]") {
   const ScaledMatrix factor{(MatrixXd(2, 2) << 0x1p1000, 0.0, 0.0, 0x1p998).finished(), 0};
   ScaledMatrix product = ScaledMatrix::identity(2);
   for (int i = 0; i < 5000; ++i) product = factor * product;

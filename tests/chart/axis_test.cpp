@@ -22,7 +22,7 @@ std::string refusal(const Axis& wrong) {
 
 }  // namespace
 
-TEST_CASE("both ends of an axis are exact", "[chart][axis]") {
+TEST_CASE("both ends of an axis are exact", "[chart][axis][extreme][N39]") {
   // 1.1 and 2.3 have no short binary form: from + (to - from) would miss the end.
   for (const auto& [from, to] : {std::pair{0.1, 0.7}, {1.1, 2.3}, {-1e-3, 1e16}, {1e300, -1e300}}) {
     const Axis line = axis(from, to, 37);
@@ -33,7 +33,7 @@ TEST_CASE("both ends of an axis are exact", "[chart][axis]") {
   CHECK(axis(0.3, 7.7, 12, kLog).value(11) == 7.7);
 }
 
-TEST_CASE("linear axes are equidistant and monotone, reversed ones too", "[chart][axis]") {
+TEST_CASE("linear axes are equidistant and monotone, reversed ones too", "[chart][axis][extreme][N39]") {
   const Axis line = axis(-1.0, 5.0, 13);
   for (std::size_t j = 0; j < 13; ++j)
     CHECK(line.value(j) == Approx(-1.0 + 0.5 * static_cast<double>(j)).margin(1e-15));
@@ -41,12 +41,12 @@ TEST_CASE("linear axes are equidistant and monotone, reversed ones too", "[chart
   for (std::size_t j = 1; j < 101; ++j) CHECK(reversed.value(j) < reversed.value(j - 1));
 }
 
-TEST_CASE("the whole range of double does not overflow", "[chart][axis]") {
+TEST_CASE("the whole range of double does not overflow", "[chart][axis][extreme][N39]") {
   constexpr double largest = std::numeric_limits<double>::max();
   CHECK(axis(-largest, largest, 3).value(1) == 0.0);
 }
 
-TEST_CASE("logarithmic axes have a constant ratio, on either side of zero", "[chart][axis]") {
+TEST_CASE("logarithmic axes have a constant ratio, on either side of zero", "[chart][axis][extreme][N40]") {
   const Axis decades = axis(1e-3, 1e3, 7, kLog);
   for (std::size_t j = 0; j < 7; ++j)
     CHECK(decades.value(j) == Approx(std::pow(10.0, static_cast<double>(j) - 3.0)).epsilon(1e-14));
@@ -57,14 +57,14 @@ TEST_CASE("logarithmic axes have a constant ratio, on either side of zero", "[ch
   CHECK_NOTHROW(axis(1e-320, 1e-310, 5, kLog).validate("y"));  // the product of the ends underflows
 }
 
-TEST_CASE("an axis of one point", "[chart][axis]") {
+TEST_CASE("an axis of one point", "[chart][axis][extreme][N39]") {
   CHECK(axis(0.3, 0.3, 1).value(0) == 0.3);
   CHECK_NOTHROW(axis(0.3, 0.3, 1).validate("x"));
   CHECK_NOTHROW(axis(-0.3, -0.3, 1, kLog).validate("x"));
   CHECK(refusal(axis(0.3, 0.4, 1)).find("equal to from (0.3)") != std::string::npos);
 }
 
-TEST_CASE("axes that make no sense are refused, with the field and the range", "[chart][axis]") {
+TEST_CASE("axes that make no sense are refused, with the field and the range", "[chart][axis][extreme][N36][N39][N40]") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    inf = std::numeric_limits<double>::infinity();
   CHECK(refusal(axis(nan, 1.0, 3)) == "x axis: from = nan is not allowed: it must be finite");

@@ -135,7 +135,7 @@ TEST_CASE("all layers of a cell come from one integration", "[chart][stability_c
   CHECK(bytes(kAll) - bytes({Layer::verdict}) == 8.0 * 5 * 1500);
 }
 
-TEST_CASE("a chart has the same bits for any number of threads", "[chart][stability_chart][threads]") {
+TEST_CASE("a chart has the same bits for any number of threads", "[chart][stability_chart][threads][extreme][N48]") {
   ChartRequest request = request_of(17, 6);
   request.threads = 1;
   const Chart one = compute(mathieu(), request);
@@ -167,7 +167,7 @@ TEST_CASE("a cell that fails says so and the rest goes on", "[chart][stability_c
   CHECK(chart.summary.outcomes[static_cast<std::size_t>(Outcome::converged)] == 4);
 }
 
-TEST_CASE("beyond 1e300 the discriminant is infinite and growth is not", "[chart][stability_chart]") {
+TEST_CASE("beyond 1e300 the discriminant is infinite and growth is not", "[chart][stability_chart][extreme][N01]") {
   ChartRequest request = request_of(2, 1, {Layer::discriminant, Layer::growth, Layer::verdict});
   request.x = {.parameter = "mathieu.delta", .from = -4e4, .to = -1e4, .points = 2};
   request.y = {.parameter = "mathieu.epsilon", .from = 0.0, .to = 0.0, .points = 1};
@@ -185,6 +185,7 @@ TEST_CASE("cancelling ends a chart between strips and is reported", "[chart][sta
   ChartRequest request = request_of(400, 400, {Layer::verdict});
   request.cancel = &cancel;
   request.threads = 2;
+  request.method = Method::propagator;
   bool strip_seen = false;
   std::size_t last = 0;
   const ChartSummary summary = compute_chart(
@@ -230,7 +231,7 @@ TEST_CASE("the plan counts before anything is computed", "[chart][stability_char
   CHECK(plan.expected_seconds > 0.0);
 }
 
-TEST_CASE("working memory does not grow with the number of rows", "[chart][stability_chart][plan]") {
+TEST_CASE("working memory does not grow with the number of rows", "[chart][stability_chart][plan][extreme][N42]") {
   const auto working = [](std::size_t rows) {
     return plan_chart(mathieu(), request_of(1000, rows)).working_bytes;
   };
@@ -248,7 +249,7 @@ TEST_CASE("working memory does not grow with the number of rows", "[chart][stabi
   CHECK(rows == std::vector<std::size_t>{2, 2, 1});
 }
 
-TEST_CASE("a chart over the memory budget is refused unless forced", "[chart][stability_chart][plan]") {
+TEST_CASE("a chart over the memory budget is refused unless forced", "[chart][stability_chart][plan][extreme][N41][N42]") {
   ChartRequest request = request_of(1'000'000, 1'000'000);
   const std::string message = test::message_of<MemoryBudgetExceeded>([&] { plan_chart(mathieu(), request); });
   CHECK(message.find("1000000 x 1000000") != std::string::npos);

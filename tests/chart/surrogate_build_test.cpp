@@ -27,7 +27,8 @@ SurrogateBuild build_with(const Scene& scene, const Axis& x, const Axis& y, doub
       result[i].value(0, 1) += std::ldexp(wrong * points[i][1], static_cast<int>(-result[i].exponent));
     return complete;
   };
-  return build_surrogate(scene, x, y, {.tolerance = kTolerance, .threads = 1}, {wrong_sample, sample});
+  return build_surrogate(scene, x, y, {.tolerance = kTolerance, .threads = 1}, surrogate_scope(scene, x, y),
+                         {wrong_sample, sample});
 }
 
 }  // namespace

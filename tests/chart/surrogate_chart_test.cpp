@@ -194,7 +194,7 @@ TEST_CASE("windings are counted between cells that are tongues apart",
 }
 
 TEST_CASE("a chart by surrogate has the same bits for any number of threads",
-          "[chart][surrogate][stability_chart][threads]") {
+          "[chart][surrogate][stability_chart][threads][extreme][N48]") {
   ChartRequest request = request_of(300, 250, 1e-10);
   request.threads = 1;
   const Chart one = compute(mathieu(0.1), request);

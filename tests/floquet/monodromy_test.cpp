@@ -8,8 +8,10 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
 #include "support/hill_series.hpp"
+#include "support/ratchet.hpp"
 
 using namespace strutt;
+using strutt::test::check_within;
 
 namespace {
 
@@ -123,7 +125,7 @@ TEST_CASE("Results do not depend on what was computed before", "[floquet][law]")
   }
 }
 
-TEST_CASE("Misuse is refused, trouble is an outcome", "[floquet][error]") {
+TEST_CASE("Misuse is refused, trouble is an outcome", "[floquet][error][extreme][N17][N36]") {
   MonodromyEngine engine;
   CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1), {.tolerance = 1e-14}), InvalidInput);
   CHECK_THROWS_AS(engine.compute(mathieu_delta_epsilon(1, 1), {.tolerance = std::nan("")}), InvalidInput);
@@ -138,7 +140,7 @@ TEST_CASE("Misuse is refused, trouble is an outcome", "[floquet][error]") {
   CHECK(std::isinf(cancelled.error));
 }
 
-TEST_CASE("What would take too many steps ends at once, as an outcome", "[floquet][error][extreme]") {
+TEST_CASE("What would take too many steps ends at once, as an outcome", "[floquet][error][extreme][N13]") {
   MonodromyEngine engine;
   const auto far = [](double delta, double epsilon) { return mathieu_delta_epsilon(delta, epsilon, 0.1); };
   for (const auto method : {Method::automatic, Method::arkode, Method::cvode}) {
@@ -177,4 +179,55 @@ TEST_CASE("The bound holds where the coefficient turns faster than the solution"
     }
     CHECK(error <= allowance(monodromy));
   }
+}
+
+namespace {
+
+/// The largest error of an entry of M for the state (y, y'/kappa), relative to the largest entry.
+long double true_error(const HillMonodromy& m, const std::array<std::array<long double, 2>, 2>& truth) {
+  const long double scale[2][2] = {{1.0L, m.kappa}, {1.0L / m.kappa, 1.0L}};
+  const Eigen::Matrix2d found = plain(m);
+  long double error = 0.0L, size = 1.0L;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      error = std::max(error, std::abs(found(i, j) - scale[i][j] * truth[i][j]));
+      size = std::max(size, std::abs(scale[i][j] * truth[i][j]));
+    }
+  }
+  return error / size;
+}
+
+}  // namespace
+
+TEST_CASE("Where solutions grow det M says nothing and the determinants of the pieces do",
+          "[floquet][monodromy][extreme][N03][ratchet]") {
+  MonodromyEngine engine;
+  double largest = 0.0, defect = 0.0;
+  for (const auto& [delta, epsilon] : {std::pair{-10.0, 3.0}, {-20.0, 10.0}, {-30.0, 5.0}}) {
+    const auto equation = mathieu_delta_epsilon(delta, epsilon);
+    const auto m = engine.compute(equation, {.tolerance = 1e-12});
+    CAPTURE(delta, epsilon);
+    CHECK(std::abs(plain(m).determinant() - 1.0) > 0.1);
+    defect = std::max(defect, m.determinant_defect);
+    largest = std::max(largest, static_cast<double>(true_error(m, reference::hill_matrix(equation.coefficient))));
+  }
+  check_within("N03 |det - 1| of the integrated pieces over their squared norm", defect, 4e-16);
+  check_within("N03 error of M where |M| is up to 1e15 relative to |M|", largest, 1e-14);
+}
+
+TEST_CASE("A stiffness of 1e4 and more: both components of the state keep their digits",
+          "[floquet][monodromy][extreme][N14][ratchet]") {
+  MonodromyEngine engine;
+  double largest = 0.0;
+  for (const auto& [delta, epsilon] : {std::pair{1e4, 50.0}, {1.3e4, 0.1}, {9e4, 3e3}}) {
+    const auto equation = mathieu_delta_epsilon(delta, epsilon);
+    const auto m = engine.compute(equation, {.tolerance = 1e-11, .method = Method::propagator});
+    CHECK(m.kappa == std::sqrt(delta));
+    const auto steps = static_cast<int>(6.0 * std::sqrt(delta + epsilon));
+    const auto error = static_cast<double>(true_error(m, reference::hill_matrix(equation.coefficient, steps)));
+    CAPTURE(delta, epsilon, m.error);
+    CHECK(error <= m.error);
+    largest = std::max(largest, error);
+  }
+  check_within("N14 error of M in the scaled state at delta up to 9e4", largest, 1e-12);
 }

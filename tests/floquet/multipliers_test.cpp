@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -44,10 +45,10 @@ TEST_CASE("Multipliers of a 2 x 2 system: product, sum, order", "[floquet][multi
   }
 }
 
-TEST_CASE("The small multiplier survives beside a huge one", "[floquet][multipliers][extreme][N2]") {
+TEST_CASE("The small multiplier survives beside a huge one", "[floquet][multipliers][extreme][N02]") {
   const auto result = at(mathieu_delta_epsilon(-36.0, 0.5));
   const double product = (result.multipliers[0] * result.multipliers[1]).real();
-  CHECK(product == Approx(1.0).epsilon(1e-10));
+  CHECK(product == Approx(1.0).epsilon(1e-15));
   CHECK(std::abs(result.multipliers[0]) > 1e15);
 }
 
@@ -143,4 +144,35 @@ TEST_CASE("Scale: SI and canonical systems give the same verdict and growth", "[
   const auto si = at(slow);
   CHECK(si.growth == Approx(canonical.growth).margin(1e-10));
   CHECK(si.margin == Approx(canonical.margin).margin(1e-9));
+}
+
+TEST_CASE("Of a system the small multipliers come with the digits they have, mostly none",
+          "[floquet][multipliers][extreme][N02]") {
+  // two uncoupled ones, exp(+-2 pi 5) and exp(+-2 pi): the smallest is lost in rounding, and its error says so
+  LinearPeriodicSystem system;
+  system.period = kTwoPi;
+  system.mass = Eigen::MatrixXd::Identity(2, 2);
+  system.stiffness.mean = Eigen::MatrixXd{{-25.0, 1e-3}, {-2e-3, -1.0}};  // not symmetric: LAPACK
+  const Eigen::Vector2d squares = (-system.stiffness.mean).eigenvalues().real();
+  std::vector<double> exact;
+  for (const double square : squares)
+    for (const double sign : {-1.0, 1.0}) exact.push_back(sign * kTwoPi * std::sqrt(square));
+  std::sort(exact.rbegin(), exact.rend());
+  MonodromyEngine engine;
+  const auto found = system_multipliers(engine.compute(system, {.tolerance = 1e-10}).matrix);
+  REQUIRE(found.size() == 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CAPTURE(k, exact[k], found[k].log_modulus, found[k].log_modulus_error);
+    CHECK(std::abs(found[k].log_modulus - exact[k]) <= found[k].log_modulus_error);
+  }
+  CHECK(found[0].log_modulus_error < 1e-9);
+  CHECK(found[3].log_modulus_error > 0.1);
+}
+
+TEST_CASE("Matrices that are not finite do not reach LAPACK", "[floquet][multipliers][extreme][N37]") {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    auto matrix = BoundedMatrix::identity(4);
+    matrix.value.mantissa(2, 1) = bad;
+    CHECK_THROWS_AS(system_multipliers(matrix), NumericalFailure);
+  }
 }

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
 using namespace strutt;
+using strutt::test::check_within;
 
 namespace {
 
@@ -29,6 +31,8 @@ Tally check(const Case& c) {
     REQUIRE(result.matrix.size() > 0);
     const double truth = reference::true_error(model, result, row);
     CHECK(truth <= result.error);
+    if (truth > 0.0)
+      check_within("true error of M over its bound in table " + c.table, truth / result.error, 1.0);
     CHECK((result.outcome != Outcome::converged || result.error <= c.tolerance));
     CHECK((result.outcome == Outcome::converged || result.outcome == Outcome::tolerance_not_reached));
     tally.sharp += result.error <= 100.0 * std::max(truth, 1e-15);
@@ -38,7 +42,10 @@ Tally check(const Case& c) {
 
     const auto margin = row.result("margin");
     if (result.margin > kLowestMargin) {
-      CHECK(static_cast<double>(reference::Real(abs(margin - result.margin))) <= result.margin_error);
+      const auto error = static_cast<double>(reference::Real(abs(margin - result.margin)));
+      CHECK(error <= result.margin_error);
+      if (error > 0.0)
+        check_within("true error of a margin over its bound", error / result.margin_error, 1.0);
     }
     const auto verdict = margin > 0 ? Verdict::stable : margin < 0 ? Verdict::unstable : Verdict::boundary;
     CHECK((result.verdict == verdict || result.verdict == Verdict::unresolved));
@@ -50,7 +57,8 @@ Tally check(const Case& c) {
 
 }  // namespace
 
-TEST_CASE("The error bound is above the true error and sharp on the reference tables", "[floquet][reference]") {
+TEST_CASE("The error bound is above the true error and sharp on the reference tables",
+          "[floquet][reference][ratchet]") {
   const auto c = GENERATE(values<Case>({
       {"mathieu", Method::arkode, 1e-3}, {"mathieu", Method::arkode, 1e-6}, {"mathieu", Method::arkode, 1e-9},
       {"mathieu", Method::arkode, 1e-12}, {"mathieu", Method::cvode, 1e-6},

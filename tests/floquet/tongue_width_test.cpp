@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "strutt/base/error.hpp"
+#include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
 namespace strutt::test {
@@ -24,18 +25,25 @@ double relative_error(const TongueWidth& width, const Real& truth) {
 }  // namespace
 
 TEST_CASE("widths of Mathieu's tongues have relative accuracy",
-          "[floquet][tongues][reference][extreme][N06]") {
-  int rows = 0;
+          "[floquet][tongues][reference][extreme][N06][ratchet]") {
+  int rows = 0, small = 0;
   for (const auto& row : reference::read("width")) {
     const int order = static_cast<int>(row.input("n"));
     const auto v = cosine(row.input("epsilon"));
     const TongueWidth width = width_of(v, order);
     INFO("n = " << order << ", epsilon = " << row.text("epsilon"));
-    CHECK(width.relative_error <= 1e-11);
-    CHECK(relative_error(width, row.result("width")) <= width.relative_error);
+    const double error = relative_error(width, row.result("width"));
+    CHECK(error <= width.relative_error);
+    check_within("N06 bound of a width (relative)", width.relative_error, kWidthAccuracy);
+    check_within("N06 error of a width (relative)", error, 1.5e-13);
+    if (row.text("epsilon") == "0.01") {
+      check_within("N06 error of a width at epsilon = 0.01 for n = 1 to 12 (relative)", error, 1e-14);
+      ++small;
+    }
     ++rows;
   }
   CHECK(rows == 48);
+  CHECK(small == 12);
 }
 
 TEST_CASE("a width of 1e-295 is as good as any", "[floquet][tongues][extreme][N06]") {
@@ -111,6 +119,33 @@ TEST_CASE("tongues that no harmonic reaches are closed, proved", "[floquet][tong
 
 TEST_CASE("tongue 0 has no width", "[floquet][tongues]") {
   CHECK_THROWS_AS(width_of(cosine(0.1), 0), InvalidInput);
+}
+
+TEST_CASE("where the ways between the modes cancel the errors of the coefficients count",
+          "[floquet][tongues][extreme][N08]") {
+  // tongue 2 of a cos(theta) + b cos(2 theta) is closed at b = a^2/2 (Whittaker, Hill); 1e-10 beside it
+  constexpr double kError = 1e-15;
+  const auto v = [](double a, double b) {
+    return PeriodicFunction::fourier(0.0, {{1, a, 0.0}, {2, b, 0.0}});
+  };
+  const double a = 1.0, b = 0.5 * (1.0 + 1e-10);
+  const TongueWidth width = tongue_width(v(a, b), tongue_edges(v(a, b), 2, 2).front(), kError);
+  CHECK(width.relative_error < 1e-3);
+  double largest = 0.0;
+  for (const double one : {1.0 - kError, 1.0 + kError})
+    for (const double two : {1.0 - kError, 1.0 + kError})
+      largest = std::max(largest, std::abs(width_of(v(one * a, two * b), 2).value / width.value - 1.0));
+  CHECK(largest > 1e-6);
+  CHECK(largest <= width.relative_error);
+  // at the closed tongue itself nothing but a bound is left
+  const TongueWidth closed = tongue_width(v(1.0, 0.5), tongue_edges(v(1.0, 0.5), 2, 2).front(), kError);
+  CHECK(closed.relative_error == 1.0);
+  CHECK(2.0 * closed.value >= std::abs(width_of(v(1.0 + kError, 0.5), 2).value));
+  CHECK(closed.value < 1e-14);
+  // a single harmonic loses n times its error
+  const TongueWidth single = tongue_width(cosine(0.01), tongue_edges(cosine(0.01), 9, 9).front(), kError);
+  CHECK(single.relative_error >= 9.0 * kError);
+  CHECK(single.relative_error <= 40.0 * kError);
 }
 
 }  // namespace strutt::test

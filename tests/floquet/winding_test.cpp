@@ -1,9 +1,13 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "strutt/floquet/stability.hpp"
+#include "support/models.hpp"
+#include "support/ratchet.hpp"
 
 using namespace strutt;
+using strutt::test::check_within;
 
 namespace {
 
@@ -14,9 +18,11 @@ Stability at(const HillEquation& equation, double tolerance = 1e-9) {
 
 }  // namespace
 
-TEST_CASE("The winding number of a constant coefficient is sqrt(delta)", "[floquet][winding]") {
+TEST_CASE("The winding number of a constant coefficient is sqrt(delta)", "[floquet][winding][ratchet]") {
   for (const double delta : {1e-6, 0.1, 0.3, 1.1, 2.0, 7.3, 123.4, 1e4 + 0.3, 1e6 + 0.7}) {
-    CHECK(at(mathieu_delta_epsilon(delta, 0.0)).winding == Approx(std::sqrt(delta)).epsilon(1e-12));
+    const double winding = at(mathieu_delta_epsilon(delta, 0.0)).winding;
+    check_within("winding of a constant coefficient (relative)", std::abs(winding / std::sqrt(delta) - 1.0),
+                 1e-15);
   }
   for (const double delta : {-0.1, -30.0}) CHECK(at(mathieu_delta_epsilon(delta, 0.0)).winding == 0.0);
 }
@@ -58,4 +64,19 @@ TEST_CASE("Alternating growth and oscillation is counted", "[floquet][winding][e
   CHECK(2.0 * result.winding == std::round(2.0 * result.winding));
   CHECK(result.winding > 10.0);
   CHECK(result.winding < std::sqrt(1500.0));
+}
+
+TEST_CASE("64 periods taken for one: growth and turns are 64 times those of one",
+          "[floquet][winding][extreme][N21][ratchet]") {
+  double largest = 0.0;
+  for (const auto& [delta, epsilon] : {std::pair{1.0, 0.5}, {0.25, 0.1}, {-2.0, 1.0}, {1.7, 0.4}}) {
+    const auto one = mathieu_delta_epsilon(delta, epsilon);
+    auto many = one;
+    for (int k = 0; k < 6; ++k) many = test::over_two_periods(many);
+    const auto a = at(one, 1e-12), b = at(many, 1e-12);
+    CAPTURE(delta, epsilon, a.growth, b.growth, b.error);
+    CHECK(a.verdict == b.verdict);
+    largest = std::max({largest, std::abs(b.growth / 64.0 - a.growth), std::abs(b.winding / 64.0 - a.winding)});
+  }
+  check_within("N21 growth and winding of 64 periods over 64: difference from those of one", largest, 1e-14);
 }

@@ -71,7 +71,7 @@ TEST_CASE("the smallest of intervals", "[integrate][limits]") {
   }
 }
 
-TEST_CASE("input that is not finite", "[integrate][failure]") {
+TEST_CASE("input that is not finite", "[integrate][failure][extreme][N36]") {
   for (const Method& method : kMethods) {
     const IntegratorOptions options = options_of(method, 1e-6);
     for (const double bad : {kNan, kInfinity, -kInfinity}) {
@@ -85,7 +85,7 @@ TEST_CASE("input that is not finite", "[integrate][failure]") {
   }
 }
 
-TEST_CASE("a right-hand side that is not finite ends the run where it was", "[integrate][failure]") {
+TEST_CASE("a right-hand side that is not finite ends the run where it was", "[integrate][failure][extreme][N37]") {
   for (const Method& method : kMethods) {
     for (const double bad : {kNan, kInfinity}) {
       for (const double when : {-1.0, 0.7}) {
@@ -106,7 +106,7 @@ TEST_CASE("a right-hand side that is not finite ends the run where it was", "[in
   }
 }
 
-TEST_CASE("tolerances nobody can reach", "[integrate][failure]") {
+TEST_CASE("tolerances nobody can reach", "[integrate][failure][extreme][N17]") {
   for (const Method& method : kMethods) {
     IntegratorOptions options = options_of(method, 1e-6);
     options.relative_tolerance = 0.9e-15;
@@ -130,7 +130,7 @@ TEST_CASE("tolerances nobody can reach", "[integrate][failure]") {
   }
 }
 
-TEST_CASE("a run past a singularity ends, quickly and silently", "[integrate][failure]") {
+TEST_CASE("a run past a singularity ends, quickly and silently", "[integrate][failure][extreme][N16]") {
   const auto blow_up = [](double, StateView y, StateOut dydt) { dydt[0] = y[0] * y[0]; };
   const auto pole = [](double t, StateView, StateOut dydt) { dydt[0] = -1.0 / (t - 1.0); };
   for (const Method& method : kMethods) {
@@ -150,7 +150,7 @@ TEST_CASE("a run past a singularity ends, quickly and silently", "[integrate][fa
   }
 }
 
-TEST_CASE("a step that no longer changes the time", "[integrate][failure]") {
+TEST_CASE("a step that no longer changes the time", "[integrate][failure][extreme][N16]") {
   // At t = 1e10 doubles are 2e-6 apart; the solution turns within 1e-9.
   const auto fast = [](double, StateView y, StateOut dydt) {
     dydt[0] = 1e9 * y[1];

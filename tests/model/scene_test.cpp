@@ -148,7 +148,7 @@ TEST_CASE("Parameters of absent parts do not exist, and the nearest one is named
   }
 }
 
-TEST_CASE("validate names the parameter that is out of range", "[model][scene][error]") {
+TEST_CASE("validate names the parameter that is out of range", "[model][scene][error][extreme][N38]") {
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     const std::string start = " = " + to_text(bad) + " is not allowed: it must be ";
     for (const char* path : {"pendulum.mass", "pendulum.length", "pendulum.gravity", "support.frequency"}) {
@@ -176,7 +176,7 @@ TEST_CASE("validate names the parameter that is out of range", "[model][scene][e
         "");  // [linear] takes any
 }
 
-TEST_CASE("validate finds what is not finite anywhere, lists included", "[model][scene][error]") {
+TEST_CASE("validate finds what is not finite anywhere, lists included", "[model][scene][error][extreme][N36]") {
   for (const auto& scene : every_kind()) {
     for (const auto& path : parameter_paths(scene)) {
       CHECK_THAT(refused(scene, [&](Scene& s) { parameter(s, path) = std::nan(""); }),

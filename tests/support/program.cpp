@@ -1,4 +1,5 @@
 #include "support/program.hpp"
+#include "support/paths.hpp"
 
 #include <signal.h>
 #include <spawn.h>
@@ -66,10 +67,11 @@ Program::Program(const std::vector<std::string>& arguments, const Setup& setup)
   for (const int fd : setup.closed) ::posix_spawn_file_actions_addclose(&actions, fd);
   if (!setup.directory.empty()) ::posix_spawn_file_actions_addchdir_np(&actions, setup.directory.c_str());
 
-  std::vector<std::string> words{STRUTT_PROGRAM};
+  const std::string path = program_path();
+  std::vector<std::string> words{path};
   words.insert(words.end(), arguments.begin(), arguments.end());
   auto environment = environment_with(setup.environment);
-  const int error = ::posix_spawn(&child_, STRUTT_PROGRAM, &actions, nullptr, pointers(words).data(),
+  const int error = ::posix_spawn(&child_, path.c_str(), &actions, nullptr, pointers(words).data(),
                                   pointers(environment).data());
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(in);

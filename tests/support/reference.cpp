@@ -1,4 +1,5 @@
 #include "support/reference.hpp"
+#include "support/paths.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -48,7 +49,7 @@ LinearModel linear_system(const Row& r) {
 double Row::input(const std::string& column) const { return std::strtod(text(column).c_str(), nullptr); }
 
 std::vector<Row> read(const std::string& table) {
-  std::ifstream file(STRUTT_SOURCE_DIR "/tests/reference/" + table + ".csv");
+  std::ifstream file(strutt::test::source_directory() + "/tests/reference/" + table + ".csv");
   if (!file) throw std::runtime_error("no reference table " + table);
   std::vector<std::string> header;
   std::vector<Row> rows;

@@ -15,6 +15,8 @@ enum class Method : signed char {
   exact,       ///< closed form
 };
 
+inline constexpr int kMethodCount = 7;
+
 /// The name on the command line and in files: `auto`, `surrogate`, ..., `exact`.
 std::string_view to_string(Method method);
 

@@ -23,4 +23,9 @@ int thread_count(const ParallelOptions& options);
 bool parallel_for(std::size_t count, const ParallelOptions& options,
                   const std::function<void(std::size_t index, int slot)>& body);
 
+/// The same for work that goes better side by side: body(first, last, slot) for the indices [first, last),
+/// `most` >= 1 of them, fewer at the end of [0, count). The cuts do not depend on the number of threads.
+bool parallel_for_ranges(std::size_t count, std::size_t most, const ParallelOptions& options,
+                         const std::function<void(std::size_t first, std::size_t last, int slot)>& body);
+
 }  // namespace strutt

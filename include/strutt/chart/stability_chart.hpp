@@ -11,6 +11,7 @@
 #include "strutt/base/method.hpp"
 #include "strutt/base/outcome.hpp"
 #include "strutt/chart/axis.hpp"
+#include "strutt/chart/forecast.hpp"
 #include "strutt/chart/surrogate.hpp"
 #include "strutt/model/scene.hpp"
 
@@ -30,8 +31,9 @@ struct ChartRequest {
   Axis y;
   std::vector<Layer> layers{Layer::verdict, Layer::growth};
   double tolerance = 1e-9;  ///< 1e-13 <= tolerance <= 1e-2
-  /// surrogate: Chebyshev boxes (chart/surrogate.hpp) for all cells whose error and verdict they can answer for, the
-  /// others and charts without a surrogate point by point as with `automatic`. Every other method: point by point.
+  /// surrogate: Chebyshev boxes (chart/surrogate.hpp) for all cells whose error and verdict they can answer
+  /// for, the others and charts without a surrogate point by point by the engine's choice. automatic: that,
+  /// where it is expected to be the cheapest, else point by point. Every other method: point by point.
   Method method = Method::automatic;
   int threads = 0;             ///< 0: all
   bool force = false;          ///< lifts the memory budget
@@ -43,21 +45,24 @@ struct ChartPlan {
   std::size_t cells = 0;
   std::size_t rows_per_strip = 0;
   double result_bytes = 0.0;   ///< of all layers and axes as float64
-  double working_bytes = 0.0;  ///< of the strip buffer and the workspaces; does not grow with the number of rows
+  double working_bytes = 0.0;  ///< of strip buffer, workspaces and surrogate; does not grow with the rows
   double budget_bytes = 0.0;   ///< memory_budget()
-  double expected_seconds = 0.0;  ///< from a fixed cost per cell, for orientation
+  double expected_seconds = 0.0;  ///< chart/forecast.hpp; without reading and writing
   Method method = Method::automatic;  ///< the one that will be used
-  std::string refusal;  ///< why the surrogate that was asked for is not used; empty: it is, or was not asked for
+  /// Why no surrogate is used; empty if one is, or if another method was asked for.
+  std::string refusal;
+  PointForecast point;                         ///< of a cell that is not interpolated
+  std::optional<SurrogateForecast> surrogate;  ///< if one was considered
   int threads = 1;
 };
 
 /// What a result may take unless the user lifts the budget: half of the physical memory, in bytes.
 double memory_budget();
 
-/// Forecast, for orientation: the time that one point takes one thread by this method at tolerance 1e-9, in seconds.
-double expected_seconds_per_point(Method method, const LinearModel& model);
-
-/// Checks the request against the scene (parameters exist, ends are valid values, sizes do not overflow) and estimates it.
+/// Checks the request against the scene (parameters exist, ends are valid values, sizes do not overflow) and
+/// forecasts it. Method::automatic takes the surrogate where a chart takes a hundredth of a second or more
+/// point by point, and at most half of that by the surrogate. The same scene and request but for the threads
+/// give the same plan.
 /// Throws InvalidInput, and MemoryBudgetExceeded when result_bytes or working_bytes > budget_bytes unless `force`.
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request);
 
@@ -86,6 +91,7 @@ struct ChartSummary {
   long right_hand_sides = 0;
   double largest_error = 0.0;                     ///< of all converged cells
   std::size_t interpolated = 0;                   ///< cells whose values come from the surrogate
+  std::vector<std::size_t> methods;               ///< cells per Method that gave their values
   std::optional<SurrogateReport> surrogate;       ///< how building it went
 };
 

@@ -35,8 +35,12 @@ struct TongueEdges {
 /// at 5000. Edges closer than that are not told apart: lower may pass upper within their errors. Cost: that
 /// of about four banded eigenvalue problems with n + 4 sqrt(sum |V_k|) rows for each edge.
 ///
-/// Throws InvalidInput unless 0 <= first <= last <= 1000, V has finitely many harmonics (no square wave nor
-/// its antiderivatives) and sum |V_k| <= 1e6. Source: Magnus, Winkler, Hill's Equation (1966), chapters 1
+/// A square wave (Meissner) has closed forms: each edge is a zero of one half-period factor, a product of two
+/// constant propagators, its index told by Pruefer's angle and its error by the sign of the factor on both
+/// sides.
+///
+/// Throws InvalidInput unless 0 <= first <= last <= 1000, V has finitely many harmonics or is a square wave
+/// (none of its antiderivatives) and sum |V_k|, the amplitude of the square wave, is at most 1e6. Source: Magnus, Winkler, Hill's Equation (1966), chapters 1
 /// and 2.
 std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int first, int last);
 

@@ -32,21 +32,17 @@ struct FrequencySeries {
 /// Two ways that share only the arithmetic; they give the same rational numbers.
 enum class SeriesMethod {
   /// xi = sqrt(2 V) sign(phi) makes phi(xi) = sum b_n xi^n; T/T0 = sum (2n+1) b_2n+1 binomial(2n, n)
-  /// (V(A)/2)^n, after
-  /// phi and t are scaled to V = phi^2/2 + ...: the period as an integral over the energy.
+  /// (V(A)/2)^n, after phi and t are scaled to V = phi^2/2 + ...: the period as an integral over the energy.
+  /// Exact numbers of some 3 order digits: the pendulum to order 100 takes 0.3 s, to 200 8 s, to 400 3 min.
   energy_integral,
   /// phi = sum A^n phi_n(tau), tau = omega t, phi(0) = A, phi'(0) = 0; omega^2 is chosen order by order so
-  /// that no
-  /// resonant term is left. Work grows as order^4.
+  /// that no resonant term is left. To order 40 4 s.
   lindstedt,
 };
 
-/// Highest order of a series: exact numbers of some thousand digits, seconds of work.
-inline constexpr int kMostSeriesOrder = 100;
-
 /// Series for phi'' = -V'(phi), V = potential[2] phi^2 + potential[3] phi^3 + ..., in Taylor coefficients of
 /// V (no factorials): omega0^2 = 2 potential[2]. Missing coefficients are zero. The doubles are taken as
-/// exact. Throws InvalidInput unless 0 <= order <= kMostSeriesOrder, all coefficients are finite,
+/// exact. Throws InvalidInput unless order >= 0, all coefficients are finite,
 /// potential[0] = potential[1] = 0 and potential[2] > 0. Source: Landau & Lifshitz, Mechanics, sections 12
 /// and 28; docs/normal-form.md.
 FrequencySeries frequency_series(const std::vector<double>& potential, int order,

@@ -28,13 +28,12 @@ struct Propagation {
   IntegrationCost estimate_cost;  ///< of the second run
 };
 
-/// Adds to `error` the truncation seen in a second value: `share` times the largest entry of |matrix - check|, for every
-/// entry. kTruncationSafety is the share for the second, more accurate run of a LinearPropagator. Compare results as far down the line as possible: errors of single propagators
-/// that cancel in a product then do so in the estimate as well.
+/// Adds to `error` the truncation seen in a second, more accurate run: kTruncationSafety times the largest
+/// entry of |matrix - check|, for every entry. Compare results as far down the line as possible: errors of
+/// single propagators that cancel in a product then do so in the estimate as well.
 inline constexpr double kTruncationSafety = 6.0;
 template <typename Matrix>
-void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check,
-                    double share = kTruncationSafety);
+void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check);
 
 /// Fundamental matrices of y' = A(t) y with n states, integrated from the identity by SUNDIALS, and a second time for
 /// the error: ARKODE at 3/100 of the tolerance of an ARKODE run, or at the tolerance of a CVODE run, which is far less

@@ -23,6 +23,8 @@ class ChartWriter {
  public:
   virtual ~ChartWriter() = default;
   virtual void write(const ChartStrip& strip) = 0;  ///< strips in order of rows
+  /// After the last strip, at most once: what was done, known only now. It follows the provenance, or the cells.
+  virtual void conclude(const Provenance& done) = 0;
   virtual void prepare() = 0;  ///< after the last strip: all that can fail but the renaming; OutputFile::prepare
   virtual void commit() = 0;   ///< prepare, unless that is done; then the file appears under its name
 };

@@ -1,0 +1,128 @@
+#include "chart/damped_tongue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace strutt {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kNarrow = 2e-6;     // undamped width in the mean
+constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
+constexpr double kCurvature =
+    8.0;  // bounds the relative error of the narrow form by its product with width^2
+constexpr int kSteps = 32;
+constexpr int kGrowthSteps = 16;
+
+}  // namespace
+
+std::vector<TongueEdge> DampedTongue::edges() {
+  for (const Stretch& stretch : undamped_.stretches())
+    if (!add_narrow(stretch)) add_wide(stretch);
+  return std::move(edges_);
+}
+
+TongueEdge DampedTongue::edge(double position, double error, bool upper) const {
+  const int order = undamped_.function().order();
+  TongueEdge result{.order = order,
+                    .upper = upper,
+                    .crossing = crossing_,
+                    .position = position,
+                    .error = error / std::max(1.0, std::abs(position)),
+                    .mechanism = order % 2 == 0 ? Mechanism::plus_one : Mechanism::minus_one};
+  if (!(result.error <= options_.tolerance)) result.outcome = Outcome::tolerance_not_reached;
+  return result;
+}
+
+/// The resonant block at the exponent n/2 + i eta, eta = h/(2 pi), is [a + i b, beta; conj(beta), a - i b]
+/// with b = eta |dh/dnu|, up to terms of eta^2: a^2 = |beta|^2 - b^2.
+std::optional<DampedTongue::Narrow> DampedTongue::narrow(const Stretch& stretch) {
+  const auto& value = undamped_.function().at(stretch.end->position);
+  const TongueWidth in_mean = tongue_width(value.point.variation, value.edges, value.point.relative_error);
+  const TongueEdge low = undamped_.edge(*stretch.begin, false, 0),
+                   high = undamped_.edge(*stretch.end, true, 0);
+  const TongueWidth whole = undamped_.width_of(*stretch.begin, *stretch.end, low, high);
+  const double growth = narrow_tongue_growth(value.point.variation, value.edges, in_mean);
+  const double middle = std::midpoint(low.position, high.position);
+  const double ratio = equation_.half_damping(middle) / growth;
+  if (!(ratio < 1.0)) return std::nullopt;
+  const double open = (1.0 - ratio) * (1.0 + ratio);
+  const double size = std::max(1.0, std::abs(middle));
+  const double along = whole.value / std::max(std::abs(middle), line_.to - line_.from);
+  const double model = kCurvature * (in_mean.value * in_mean.value + along * along) + 16.0 * kUnit;
+  const double relative = whole.relative_error + (model + in_mean.relative_error) / open;
+  const double shift = std::max(low.error, high.error) * size + whole.value * (in_mean.value + along);
+  return Narrow{middle,
+                shift,
+                {whole.value * std::sqrt(open), std::min(1.0, relative)},
+                growth - equation_.half_damping(middle)};
+}
+
+bool DampedTongue::add_narrow(const Stretch& stretch) {
+  if (undamped_.function().order() == 0 || !stretch.begin || !stretch.end) return false;
+  const auto& edges = undamped_.function().at(stretch.end->position).edges;
+  if (!(edges.upper.value - edges.lower->value < kNarrow)) return false;
+  if (equation_.half_damping(stretch.begin->position) == 0.0 &&
+      equation_.half_damping(stretch.end->position) == 0.0)
+    return false;
+  const auto left = narrow(stretch);
+  if (!left || left->width.relative_error >= 1.0) return true;  // closed, or it cannot be said
+  const double half = 0.5 * left->width.value;
+  TongueEdge low = edge(left->middle - half, left->position_error + kUnit * std::abs(left->middle), false);
+  TongueEdge high = edge(left->middle + half, left->position_error + kUnit * std::abs(left->middle), true);
+  low.growth = high.growth = options_.growth ? left->growth : low.growth;
+  low.growth_position = high.growth_position = options_.growth ? left->middle : low.growth_position;
+  add_width(low, high, left);
+  edges_.insert(edges_.end(), {low, high});
+  ++crossing_;
+  return true;
+}
+
+void DampedTongue::add_wide(const Stretch& stretch) {
+  const double from = stretch.begin ? stretch.begin->position : line_.from;
+  const double to = stretch.end ? stretch.end->position : line_.to;
+  if (!(from < to)) return;
+  // at the edges of the undamped tongue |D| = 2
+  const auto changes = stability_changes(verdicts_, from, to,
+                                         {.steps = kSteps,
+                                          .stable_from = stretch.begin.has_value(),
+                                          .stable_to = stretch.end.has_value(),
+                                          .cancel = options_.cancel});
+  std::optional<Narrow> estimate;
+  if (stretch.begin && stretch.end && undamped_.function().order() > 0) {
+    const auto& edges = undamped_.function().at(to).edges;
+    if (edges.upper.value - edges.lower->value < kEstimated) estimate = narrow(stretch);
+  }
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    TongueEdge next = edge(changes[i].position, changes[i].error, !changes[i].begins);
+    next.method = verdicts_.at(changes[i].unstable_at).method;
+    edges_.push_back(next);
+    if (changes[i].begins) continue;
+    ++crossing_;
+    if (i == 0 || undamped_.function().order() == 0) continue;
+    TongueEdge &low = edges_[edges_.size() - 2], &high = edges_.back();
+    add_width(low, high, estimate);
+    if (options_.growth) add_growth(low, high);
+  }
+  if (!changes.empty() && changes.back().begins) ++crossing_;
+}
+
+void DampedTongue::add_width(TongueEdge& low, TongueEdge& high, const std::optional<Narrow>& estimate) const {
+  const auto absolute = [](const TongueEdge& e) { return e.error * std::max(1.0, std::abs(e.position)); };
+  const double difference = high.position - low.position;
+  TongueWidth width{difference, std::min(1.0, (absolute(low) + absolute(high)) / difference + 2.0 * kUnit)};
+  if (estimate && (!(difference > 0.0) || estimate->width.relative_error < width.relative_error))
+    width = estimate->width;
+  low.width = high.width = width.value;
+  low.width_relative_error = high.width_relative_error = width.relative_error;
+  if (width.relative_error > kWidthPromise) low.outcome = high.outcome = Outcome::tolerance_not_reached;
+}
+
+void DampedTongue::add_growth(TongueEdge& low, TongueEdge& high) const {
+  const GrowthPeak peak = largest_growth(verdicts_, low.position, high.position, kGrowthSteps);
+  low.growth = high.growth = peak.growth;
+  low.growth_position = high.growth_position = peak.position;
+}
+
+}  // namespace strutt

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "chart/stability_line.hpp"
+#include "chart/tongue_on_line.hpp"
+
+namespace strutt {
+
+/// Tongue n of an equation with damping on a line: what is left of that without; see tongues().
+class DampedTongue {
+ public:
+  DampedTongue(LineEquation& equation, TongueOnLine& undamped, StabilityLine& verdicts,
+               const TongueLine& line, const TongueOptions& options)
+      : equation_(equation), undamped_(undamped), verdicts_(verdicts), line_(line), options_(options) {}
+
+  std::vector<TongueEdge> edges();
+
+ private:
+  /// What is left of a narrow undamped tongue.
+  struct Narrow {
+    double middle, position_error;
+    TongueWidth width;
+    double growth;  ///< the largest, with damping
+  };
+  std::optional<Narrow> narrow(const Stretch& stretch);
+
+  bool add_narrow(const Stretch& stretch);
+  void add_wide(const Stretch& stretch);
+  TongueEdge edge(double position, double error, bool upper) const;
+  void add_width(TongueEdge& low, TongueEdge& high, const std::optional<Narrow>& estimate) const;
+  void add_growth(TongueEdge& low, TongueEdge& high) const;
+
+  LineEquation& equation_;
+  TongueOnLine& undamped_;
+  StabilityLine& verdicts_;
+  const TongueLine& line_;
+  const TongueOptions& options_;
+  std::vector<TongueEdge> edges_;
+  int crossing_ = 0;
+};
+
+}  // namespace strutt

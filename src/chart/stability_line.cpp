@@ -1,0 +1,160 @@
+#include "chart/stability_line.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "strutt/base/error.hpp"
+
+namespace strutt {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kTolerance = 1e-13;  // of the monodromy matrix
+constexpr double kDip = 1e-6;         // a minimum is at least so much below its neighbours, relatively
+constexpr int kBrentBits = 30;
+
+double least_gap(const std::vector<std::complex<double>>& multipliers) {
+  double least = HUGE_VAL;
+  for (std::size_t i = 0; i < multipliers.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) least = std::min(least, std::abs(multipliers[i] - multipliers[j]));
+  return multipliers.empty() ? least : least / std::abs(multipliers.front());
+}
+
+class ChangeFinder {
+ public:
+  ChangeFinder(StabilityLine& line, double from, double to, const ChangeSearch& search)
+      : line_(line), search_(search) {
+    for (int i = 0; i <= search.steps && !cancelled(); ++i)
+      add(std::lerp(from, to, static_cast<double>(i) / search.steps));
+    if (search.stable_from && !samples_.empty()) samples_.front().unstable = false;
+    if (search.stable_to && !cancelled()) samples_.back().unstable = false;
+  }
+
+  std::vector<StabilityChange> changes() {
+    look_between_samples();
+    std::vector<StabilityChange> result;
+    for (std::size_t i = 1; i < samples_.size() && !cancelled(); ++i)
+      if (samples_[i - 1].unstable != samples_[i].unstable)
+        result.push_back(located(samples_[i - 1], samples_[i]));
+    return result;
+  }
+
+ private:
+  struct Sample {
+    double position;
+    bool unstable;
+  };
+
+  bool cancelled() const { return search_.cancel != nullptr && *search_.cancel; }
+  void add(double p) { samples_.push_back({p, line_.at(p).unstable()}); }
+
+  /// Where three samples agree and the one in the middle is closest to the other verdict.
+  void look_between_samples() {
+    const std::vector<Sample> grid = samples_;
+    for (std::size_t i = 1; i + 1 < grid.size() && !cancelled(); ++i) {
+      const bool unstable = grid[i].unstable;
+      if (grid[i - 1].unstable != unstable || grid[i + 1].unstable != unstable) continue;
+      const double sign = unstable ? -1.0 : 1.0;
+      const auto margin = [&](double p) { return sign * line_.at(p).margin.value; };
+      const auto gap = [&](double p) { return unstable ? 0.0 : line_.at(p).gap; };
+      dip(grid[i - 1].position, grid[i].position, grid[i + 1].position, unstable, margin);
+      dip(grid[i - 1].position, grid[i].position, grid[i + 1].position, unstable, gap);
+    }
+    std::ranges::sort(samples_, {}, &Sample::position);
+  }
+
+  template <typename Function>
+  void dip(double low, double middle, double high, bool unstable, const Function& function) {
+    const double bound = std::min(function(low), function(high));
+    if (!(function(middle) < bound - kDip * std::abs(bound))) return;
+    std::uintmax_t steps = 60;
+    const double p = boost::math::tools::brent_find_minima(function, low, high, kBrentBits, steps).first;
+    if (line_.at(p).unstable() != unstable) add(p);
+  }
+
+  /// The zero of the margin, or its jump, between a stable and an unstable point.
+  StabilityChange located(const Sample& low, const Sample& high) {
+    const double unstable_end = low.unstable ? low.position : high.position;
+    const double stable_end = low.unstable ? high.position : low.position;
+    const bool proved = known_stable(stable_end) || line_.at(stable_end).stable();
+    const auto value = [&](double p) {
+      const Margin& margin = line_.at(p).margin;
+      if (p == stable_end) return std::clamp(margin.value, 1e-300, 1.0);
+      return std::clamp(proved ? margin.value : margin.value + margin.error, -1.0, 1.0);
+    };
+    std::uintmax_t steps = 200;
+    const auto neighbours = [](double x, double y) { return std::nextafter(x, y) == y || x == y; };
+    const auto bracket = boost::math::tools::toms748_solve(
+        value, low.position, high.position, value(low.position), value(high.position), neighbours, steps);
+    StabilityChange change{.position = std::midpoint(bracket.first, bracket.second), .begins = high.unstable};
+    const double to_unstable = certain_distance(change.position, unstable_end, true);
+    change.unstable_at = change.position + std::copysign(to_unstable, unstable_end - change.position);
+    // where nothing proves stability the points that were looked at bound the change
+    change.error = proved ? std::max(certain_distance(change.position, stable_end, false), to_unstable) +
+                                kUnit * std::abs(change.position)
+                          : high.position - low.position;
+    return change;
+  }
+
+  bool known_stable(double p) const {
+    return (search_.stable_from && p == samples_.front().position) ||
+           (search_.stable_to && p == samples_.back().position);
+  }
+
+  /// How far from p towards `end` the verdict is certain.
+  double certain_distance(double p, double end, bool unstable) {
+    const double whole = std::abs(end - p);
+    for (double d = kUnit * std::max(std::abs(p), whole); d < whole; d *= 2.0) {
+      const auto& point = line_.at(p + std::copysign(d, end - p));
+      if (unstable ? point.unstable() : point.stable()) return d;
+    }
+    return whole;
+  }
+
+  StabilityLine& line_;
+  const ChangeSearch& search_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace
+
+StabilityLine::StabilityLine(const Scene& scene, const std::string& path, bool multipliers)
+    : scene_(scene), value_(&parameter(scene_, path)), multipliers_(multipliers) {}
+
+const StabilityLine::Point& StabilityLine::at(double parameter) {
+  if (const auto found = known_.find(parameter); found != known_.end()) return found->second;
+  *value_ = parameter;
+  const StabilityParts parts{.winding = false, .matrix = multipliers_};
+  const Stability s = analyse(engine_, linear_model(scene_), {.tolerance = kTolerance}, parts);
+  Point point;
+  point.margin = {s.margin, s.margin_error};
+  point.growth = s.growth;
+  point.method = s.method;
+  if (!s.multipliers.empty()) {
+    point.leading = s.multipliers.front();
+    point.gap = least_gap(s.multipliers);
+  }
+  return known_.emplace(parameter, point).first->second;
+}
+
+std::vector<StabilityChange> stability_changes(StabilityLine& line, double from, double to,
+                                               const ChangeSearch& search) {
+  return ChangeFinder(line, from, to, search).changes();
+}
+
+GrowthPeak largest_growth(StabilityLine& line, double from, double to, int steps) {
+  const auto position = [&](int i) { return std::lerp(from, to, static_cast<double>(i) / steps); };
+  int best = 0;
+  for (int i = 1; i <= steps; ++i)
+    if (line.at(position(i)).growth > line.at(position(best)).growth) best = i;
+  const auto [p, growth] = boost::math::tools::brent_find_minima(
+      [&](double x) { return -line.at(x).growth; }, position(std::max(best - 1, 0)),
+      position(std::min(best + 1, steps)), kBrentBits);
+  return {p, -growth};
+}
+
+}  // namespace strutt

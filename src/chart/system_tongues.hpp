@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "strutt/chart/tongues.hpp"
+
+namespace strutt {
+
+/// tongues() of a system that is no equation of second order: where the line enters and leaves what is
+/// unstable, as seen from kSystemSteps + 1 points, with the multiplier that leaves the unit circle there.
+std::vector<TongueEdge> system_tongues(const Scene& scene, const TongueLine& line,
+                                       const TongueOptions& options);
+
+}  // namespace strutt
