@@ -13,16 +13,6 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 
-/// tongues() before and after it told its method.
-template <typename Edge>
-Method method_of(const Edge& edge) {
-  if constexpr (requires { edge.method; }) {
-    return edge.method;
-  } else {
-    return Method::fourier;
-  }
-}
-
 std::vector<UnstableInterval> proved_intervals(const Scene& scene, const TongueLine& line,
                                                const IntervalOptions& options) {
   std::vector<UnstableInterval> result;
@@ -35,7 +25,7 @@ std::vector<UnstableInterval> proved_intervals(const Scene& scene, const TongueL
     order = edge.order;
     crossing = edge.crossing;
     (edge.upper ? result.back().end : result.back().begin) =
-        LineEdge{edge.position, edge.error, method_of(edge), edge.outcome};
+        LineEdge{edge.position, edge.error, edge.method, edge.outcome};
   }
   return result;
 }
@@ -154,9 +144,22 @@ class MarginScan {
   std::vector<bool> unstable_;
 };
 
-/// Does tongues() know the scenes of this line?
+bool is_undamped(const Scene& scene, const TongueLine& line) {
+  Scene changed = scene;
+  double& value = parameter(changed, line.parameter);
+  for (const double end : {line.from, line.to}) {
+    value = end;
+    const LinearModel model = linear_model(changed);
+    const auto* equation = std::get_if<HillEquation>(&model);
+    if (equation == nullptr || equation->damping != 0.0) return false;
+  }
+  return true;
+}
+
+/// Is tongues() complete on this line? With damping it finds no edge of a tongue that has none without
+/// damping between the ends of the line.
 bool is_known(const Scene& scene, const TongueLine& line) {
-  if (scene.linear) return false;
+  if (!is_undamped(scene, line)) return false;
   try {
     require_tongue_line(scene, line);
     return true;

@@ -205,7 +205,7 @@ TEST_CASE("edges move as their sensitivities say, for every model", "[chart][mar
   }
 }
 
-TEST_CASE("a thin tongue beside the design is not overlooked", "[chart][margin][extreme]") {
+TEST_CASE("a thin tongue beside the design is not overlooked", "[chart][margin]") {
   // tongue 6 at epsilon = 0.01 is 2e-18 wide
   const auto row = stability_margin(mathieu_scene(9.1, 0.01), {"mathieu.delta"}).parameters.front();
   CHECK(row.tongue == 6);

@@ -157,7 +157,7 @@ TEST_CASE("sensitivities are the limits of difference quotients, for every model
 }
 
 TEST_CASE("in the thinnest tongues edges move as the eigenvalues of Hill's equation do",
-          "[floquet][sensitivity][extreme]") {
+          "[floquet][sensitivity]") {
   // tongue 6 at epsilon = 0.01 is 2e-18 wide; both edges have the slope of their series, d(delta)/d(epsilon)
   MonodromyEngine engine;
   for (const int n : {1, 2, 3, 6}) {
