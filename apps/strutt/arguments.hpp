@@ -61,6 +61,12 @@ struct TonguesArguments : CommonArguments {
 
 struct MarginArguments : CommonArguments {
   std::optional<std::string> parameters;
+  std::optional<std::string> bands;
+  std::optional<std::string> closing_damping;
+  std::optional<std::string> box;
+  std::optional<std::string> edge;
+  std::optional<std::string> count;
+  bool sensitivities = false;
 };
 
 struct PeriodArguments : CommonArguments {  // scene: empty if --scene was not given

@@ -191,6 +191,19 @@ CLI::App* add_margin(CLI::App& app, MarginArguments& arguments) {
       ->add_option("--parameters", arguments.parameters,
                    "parameters that change, one by one and jointly (default: all that move the stability)")
       ->type_name("P,Q,...");
+  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text, const char* type) {
+    command->add_option(flag, value, text)->type_name(type);
+  };
+  add("--bands", arguments.bands, "instead: the stable and unstable bands of one parameter", "P=FROM:TO");
+  add("--closing-damping", arguments.closing_damping,
+      "instead: the damping that closes each tongue on a line, whatever the scene's", "P=FROM:TO");
+  add("--count", arguments.count, "with --closing-damping: tongues n = 1 ... N - 1 only", "N");
+  add("--box", arguments.box,
+      "instead: the worst growth per period over uncertain parameters (--tolerance: of it, default 1e-3)",
+      "P=FROM:TO,...");
+  command->add_flag("--sensitivities", arguments.sensitivities,
+                    "instead: derivatives of growth, winding and margin with respect to the parameters");
+  add("--edge", arguments.edge, "with --sensitivities: those of the nearest edge along P too", "P");
   command->footer(std::string(kMarginExample) + kExitCodes);
   return command;
 }

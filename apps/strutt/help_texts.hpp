@@ -45,9 +45,13 @@ Example:
 )";
 
 inline constexpr const char* kMarginExample = R"(
-Example:
+Examples:
   printf '[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n' > scene.toml
   strutt margin scene.toml --parameters support.frequency,support.amplitude
+  strutt margin scene.toml --bands support.frequency=2:30
+  strutt margin scene.toml --closing-damping support.frequency=2:30
+  strutt margin scene.toml --box support.frequency=11:13,pendulum.length=0.9:1.1
+  strutt margin scene.toml --sensitivities --edge support.frequency
 )";
 
 inline constexpr const char* kCharacteristicExample = R"(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "commands.hpp"
+#include "inverse_questions.hpp"
 #include "rows.hpp"
 #include "scene_arguments.hpp"
 #include "signals.hpp"
@@ -14,27 +15,6 @@
 
 namespace strutt::app {
 namespace {
-
-std::vector<std::string> parameters_of(const MarginArguments& arguments, const Scene& scene) {
-  if (!arguments.parameters) return stability_parameters(scene);
-  const auto names = split(*arguments.parameters, ',');
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    try {
-      parameter_info(scene, names[i]);
-    } catch (const InvalidInput& error) {
-      throw UsageError("--parameters: " + std::string(error.what()));
-    }
-    if (std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]) !=
-        names.begin() + static_cast<std::ptrdiff_t>(i))
-      throw UsageError("--parameters: '" + names[i] + "' is given twice");
-  }
-  return names;
-}
-
-Cell number(double x) { return std::isnan(x) ? Cell() : Cell(x); }
-Cell number(const std::optional<double>& x) { return x ? Cell(*x) : Cell(); }
-Cell number(const std::optional<int>& x) { return x ? Cell(static_cast<double>(*x)) : Cell(); }
-Cell word(Method method) { return std::string(to_string(method)); }
 
 /// What is known of a row without an edge within reach: only that.
 template <typename Row>
@@ -48,7 +28,7 @@ std::vector<Cell> cells_of(const ParameterMargin& row) {
           row.value,
           number(row.lower_edge),
           number(row.upper_edge),
-          row.distance,
+          number(row.distance),
           number(row.relative_distance),
           number(row.tongue),
           edge ? Cell(row.error) : Cell(),
@@ -61,8 +41,8 @@ std::vector<Cell> cells_of(const JointMargin& joint) {
           {},
           {},
           {},
-          joint.distance,
-          joint.distance,
+          number(joint.distance),
+          number(joint.distance),
           number(joint.tongue),
           edge ? Cell(joint.error) : Cell(),
           edge ? word(joint.method) : Cell()};
@@ -85,6 +65,11 @@ bool converged(const StabilityMargin& margin) {
 
 ExitCode run(const MarginArguments& arguments) {
   method_of(arguments, "margin", {});
+  require_one_question(arguments);
+  if (arguments.bands) return run_bands(arguments);
+  if (arguments.closing_damping) return run_closing_damping(arguments);
+  if (arguments.box) return run_box(arguments);
+  if (arguments.sensitivities) return run_sensitivities(arguments);
   const SceneFile scene = load_scene(arguments);
   MarginOptions options{.threads = threads_of(arguments), .cancel = &cancel_flag()};
   options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));

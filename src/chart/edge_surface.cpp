@@ -44,23 +44,25 @@ Margin edge_distance(const HillEquation& equation, const EdgeSurface::Edge& edge
   return {edge.sign * (mean - at.value), at.error + inputs};
 }
 
+void require_known(int tongue) {
+  if (tongue > kLargestTongue)
+    throw NumericalFailure("tongue " + std::to_string(tongue) + " is beyond the known ones");
+}
+
 }  // namespace
 
 std::vector<EdgeSurface::Edge> bounding_edges(const Scene& scene, bool stable) {
   const LinearModel model = linear_model(scene);
-  const auto* equation = std::get_if<HillEquation>(&model);
-  const bool fourier = equation != nullptr && equation->damping == 0.0 &&
-                       (equation->coefficient.is_constant() || !equation->coefficient.harmonics().empty());
-  if (!fourier) return {};
+  if (!is_undamped_fourier(model)) return {};
   MonodromyEngine engine;
   const double winding = analyse(engine, model, sharpest()).winding;
   if (stable) {
     const int below = static_cast<int>(std::floor(2.0 * winding));
-    if (below + 1 > kLargestTongue) return {};
+    require_known(below + 1);
     return {{below, true, 1.0}, {below + 1, false, -1.0}};
   }
   const int own = static_cast<int>(std::lround(2.0 * winding));
-  if (own > kLargestTongue) return {};
+  require_known(own);
   if (own == 0) return {{0, true, -1.0}};
   return {{own, true, -1.0}, {own, false, 1.0}};
 }

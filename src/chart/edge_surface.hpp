@@ -52,7 +52,8 @@ class EdgeSurface {
   Method method_ = Method::fourier;
 };
 
-/// The surfaces that bound the region of a design.
+/// The surfaces that bound the region of a design; none if it is no undamped equation with finitely many
+/// harmonics. Throws NumericalFailure beyond kLargestTongue.
 std::vector<EdgeSurface::Edge> bounding_edges(const Scene& scene, bool stable);
 
 }  // namespace strutt

@@ -131,6 +131,18 @@ bool has_reciprocal_multipliers(const LinearPeriodicSystem& system) {
   return c && *c >= 0.0 && system.stiffness.is_symmetric() && system.mass == system.mass.transpose();
 }
 
+/// `search`, or a row that says that the distance is not known.
+template <typename Row, typename Search>
+Row unless_beyond(Row row, const Search& search) {
+  try {
+    return search();
+  } catch (const NumericalFailure&) {
+    row.distance = row.error = std::numeric_limits<double>::quiet_NaN();
+    row.outcome = Outcome::tolerance_not_reached;
+    return row;
+  }
+}
+
 /// On the edge, as far as can be said.
 ParameterMargin margin_on_edge(const Scene& scene, const std::string& path, const Stability& design) {
   MonodromyEngine engine;
@@ -181,13 +193,17 @@ StabilityMargin stability_margin(const Scene& scene, const std::vector<std::stri
   const bool decided = design.verdict == Verdict::stable || design.verdict == Verdict::unstable;
   const double sign = design.verdict == Verdict::unstable ? -1.0 : 1.0;
   result.parameters.resize(parameters.size());
-  parallel_for(parameters.size(), {.threads = options.threads, .cancel = options.cancel},
-               [&](std::size_t i, int) {
-                 result.parameters[i] = decided ? margin_along(scene, parameters[i], sign, options)
-                                                : margin_on_edge(scene, parameters[i], design);
-               });
+  parallel_for(
+      parameters.size(), {.threads = options.threads, .cancel = options.cancel}, [&](std::size_t i, int) {
+        const std::string& path = parameters[i];
+        const ParameterMargin nothing = inert(path, parameter(scene, path), NAN);
+        result.parameters[i] =
+            decided ? unless_beyond(nothing, [&] { return margin_along(scene, path, sign, options); })
+                    : margin_on_edge(scene, path, design);
+      });
   if (decided) {
-    result.joint = joint_margin(scene, design.verdict, result.parameters, options);
+    result.joint = unless_beyond(
+        JointMargin{}, [&] { return joint_margin(scene, design.verdict, result.parameters, options); });
   } else {
     result.joint.distance = 0.0;
     result.joint.method = design.method;

@@ -13,16 +13,6 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 
-/// tongues() before and after it told its method.
-template <typename Edge>
-Method method_of(const Edge& edge) {
-  if constexpr (requires { edge.method; }) {
-    return edge.method;
-  } else {
-    return Method::fourier;
-  }
-}
-
 std::vector<UnstableInterval> proved_intervals(const Scene& scene, const TongueLine& line,
                                                const IntervalOptions& options) {
   std::vector<UnstableInterval> result;
@@ -35,7 +25,7 @@ std::vector<UnstableInterval> proved_intervals(const Scene& scene, const TongueL
     order = edge.order;
     crossing = edge.crossing;
     (edge.upper ? result.back().end : result.back().begin) =
-        LineEdge{edge.position, edge.error, method_of(edge), edge.outcome};
+        LineEdge{edge.position, edge.error, edge.method, edge.outcome};
   }
   return result;
 }
@@ -154,12 +144,33 @@ class MarginScan {
   std::vector<bool> unstable_;
 };
 
-bool is_proved(const Scene& scene, const TongueLine& line) {
-  if (scene.linear) return false;
+bool is_undamped(const Scene& scene, const TongueLine& line) {
+  Scene changed = scene;
+  double& value = parameter(changed, line.parameter);
+  for (const double end : {line.from, line.to}) {
+    value = end;
+    const LinearModel model = linear_model(changed);
+    const auto* equation = std::get_if<HillEquation>(&model);
+    if (equation == nullptr || equation->damping != 0.0) return false;
+  }
+  return true;
+}
+
+/// Is tongues() complete on this line? With damping it finds no edge of a tongue that has none without
+/// damping between the ends of the line.
+bool is_known(const Scene& scene, const TongueLine& line) {
+  if (!is_undamped(scene, line)) return false;
   try {
     require_tongue_line(scene, line);
-    tongue_count(scene, line);
     return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
+bool is_countable(const Scene& scene, const TongueLine& line) {
+  try {
+    return tongue_count(scene, line) <= kLargestTongue + 1;
   } catch (const InvalidInput&) {
     return false;
   }
@@ -167,14 +178,26 @@ bool is_proved(const Scene& scene, const TongueLine& line) {
 
 std::vector<UnstableInterval> intervals_of(const Scene& scene, const TongueLine& line,
                                            const IntervalOptions& options) {
-  try {
-    if (is_proved(scene, line)) return proved_intervals(scene, line, options);
-  } catch (const NumericalFailure&) {  // the line touches an edge, as at the tip of a tongue
+  if (is_known(scene, line)) {
+    if (is_countable(scene, line)) {
+      try {
+        return proved_intervals(scene, line, options);
+      } catch (const NumericalFailure&) {  // the line touches an edge, as at the tip of a tongue
+      }
+    } else if (is_undamped_fourier(linear_model(scene))) {
+      throw NumericalFailure(line.parameter + ": more than 1000 tongues, most of them too thin to be seen");
+    }
   }
   return MarginScan(scene, line, options).intervals();
 }
 
 }  // namespace
+
+bool is_undamped_fourier(const LinearModel& model) {
+  const auto* equation = std::get_if<HillEquation>(&model);
+  return equation != nullptr && equation->damping == 0.0 &&
+         (equation->coefficient.is_constant() || !equation->coefficient.harmonics().empty());
+}
 
 MonodromyOptions sharpest() { return {.tolerance = 1e-13}; }
 

@@ -35,7 +35,8 @@ struct IntervalOptions {
 /// The unstable intervals of a line, ascending. By tongues() where it knows the scene: complete, with proved
 /// indices. Else by the sign of the margin at equidistant points and at the minima and maxima between them:
 /// an interval narrower than that may be missed; the edges found are enclosed between certain verdicts on
-/// both sides. Closed tongues are no intervals.
+/// both sides. Closed tongues are no intervals. Throws NumericalFailure for an undamped line that passes more
+/// than kLargestTongue tongues.
 std::vector<UnstableInterval> unstable_intervals(const Scene& scene, const TongueLine& line,
                                                  const IntervalOptions& options);
 
@@ -53,6 +54,12 @@ class MarginLine {
   Scene scene_;
   double* value_;
 };
+
+/// Hill's equation without damping, with finitely many harmonics?
+bool is_undamped_fourier(const LinearModel& model);
+
+/// Hill's equation without damping, with finitely many harmonics?
+bool is_undamped_fourier(const LinearModel& model);
 
 /// The margin of a scene as it stands, as sharp as it can be had.
 MonodromyOptions sharpest();

@@ -191,7 +191,7 @@ class HillSlopes {
   Derivative winding_slope() const {
     if (gap_.gap <= 0.0) return {0.0, 0.0};
     const double sine = std::copysign(2.0 * pi * root(), v_.n(0, 1));
-    const double value = -slope_.value / sine;
+    const double value = 0.0 - slope_.value / sine;  // not -0
     return {value, slope_.error / std::abs(sine) + std::abs(value) * relative_root_error()};
   }
 

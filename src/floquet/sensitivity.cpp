@@ -50,4 +50,15 @@ Sensitivity sensitivity(MonodromyEngine& engine, const Scene& scene, std::string
   return system_sensitivity(engine, system, by, options);
 }
 
+Derivative edge_shift(MonodromyEngine& engine, const Scene& on_edge, std::string_view along,
+                      std::string_view by, const MonodromyOptions& options) {
+  if (along == by) return {0.0, 0.0};
+  const Derivative across = sensitivity(engine, on_edge, along, options).edge,
+                   moved = sensitivity(engine, on_edge, by, options).edge;
+  const double shift = -moved.value / across.value;
+  if (!std::isfinite(shift)) return {};
+  const double relative = across.error / std::abs(across.value);
+  return {shift, moved.error / std::abs(across.value) + std::abs(shift) * (relative + 0x1p-51)};
+}
+
 }  // namespace strutt

@@ -101,6 +101,113 @@ TEST_CASE("margin of an unstable design is negative, on the edge 0 and exit code
   CHECK(csv_rows(unresolved.out)[1][4] == "0");
 }
 
+TEST_CASE("margin --bands lists the safe frequencies", "[apps][margin]") {
+  const Result result = Command().run({"--bands", "support.frequency=2:30"});
+  CHECK(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 8);
+  CHECK(rows[0] ==
+        Words{"parameter", "from", "to", "verdict", "tongue", "from_error", "to_error", "method", "outcome"});
+  CHECK(csv_comment(result.out, "units") == ",rad/s,rad/s,,1,1,1,,");
+  CHECK(rows[1][1] == "2");
+  CHECK(rows[1][3] == "stable");
+  CHECK(rows[1][4].empty());
+  CHECK(rows[6][3] == "unstable");
+  CHECK(rows[6][4] == "1");
+  CHECK(number(rows[6][1]) == Approx(7.1631321909));
+  CHECK(rows[7][2] == "30");
+  const auto units = csv_rows(Command().run({"--bands", "support.frequency=1 Hz:2 Hz"}).out);
+  CHECK(number(units[1][1]) == Approx(6.283185307));
+}
+
+TEST_CASE("margin --closing-damping tells the damping of each tongue", "[apps][margin]") {
+  const Result result =
+      Command("[mathieu]\nepsilon = 0.001\n").run({"--closing-damping", "mathieu.delta=0.1:2"});
+  CHECK(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0] == Words{"tongue", "crossing", "damping", "error", "position", "method", "outcome"});
+  CHECK(number(rows[1][2]) == Approx(0.001).epsilon(1e-5));
+  CHECK(number(rows[2][2]) == Approx(0.5 * 0.001 * 0.001 / 2.0).epsilon(1e-5));
+  const Command rod;
+  CHECK(csv_comment(rod.run({"--closing-damping", "support.frequency=5:30"}).out, "units") ==
+        "1,1,1/s,1,rad/s,,");
+  CHECK(csv_rows(rod.run({"--closing-damping", "support.frequency=2:30", "--count", "3"}).out).size() == 3);
+}
+
+TEST_CASE("margin --box bounds the worst growth", "[apps][margin]") {
+  const Result result = Command().run(
+      {"--box", "support.frequency=7:9,pendulum.length=0.9:1.1", "--tolerance", "1e-2", "--json"});
+  CHECK(result.code == 0);
+  const auto row = nlohmann::json::parse(result.out)["rows"][0];
+  CHECK(double(row["growth"]) > 0.2);
+  CHECK(double(row["error"]) <= 1e-2);
+  CHECK(row["error_kind"] == "bound");
+  CHECK(double(row["support.frequency"]) >= 7.0);
+  CHECK(double(row["pendulum.length"]) <= 1.1);
+  CHECK(row["outcome"] == "converged");
+  const Result hard = Command("[mathieu]\ndelta = 3\nepsilon = 5\n")
+                          .run({"--box", "mathieu.delta=1:5,mathieu.epsilon=3:8", "--tolerance", "1e-6"});
+  CHECK(hard.code == 1);  // the evaluations run out, and the error says so
+}
+
+TEST_CASE("margin --sensitivities tells slopes, of an edge too", "[apps][margin]") {
+  const Command command("[mathieu]\ndelta = 0.27\nepsilon = 0.2\n");
+  const auto rows = csv_rows(command.run({"--sensitivities", "--edge", "mathieu.delta"}).out);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0] == Words{"parameter", "value", "growth_slope", "growth_error", "growth_per_time_slope",
+                         "growth_per_time_error", "winding_slope", "winding_error", "margin_slope",
+                         "margin_error", "edge", "edge_slope", "edge_error", "outcome"});
+  CHECK(number(rows[1][10]) == Approx(0.344746684));
+  CHECK(rows[1][11] == "0");
+  CHECK(number(rows[2][11]) == Approx(0.5 - 0.25 * 0.2).epsilon(0.02));  // a_1/4 = 1/4 + e/2 - e^2/8 - ...
+  CHECK(number(rows[1][4]) == Approx(number(rows[1][2]) / 6.283185307179586));
+  CHECK(rows[1][6] == "0");
+  const auto chosen = csv_rows(command.run({"--sensitivities", "--parameters", "mathieu.epsilon"}).out);
+  REQUIRE(chosen.size() == 2);
+  CHECK(chosen[0].size() == 11);
+}
+
+TEST_CASE("margin answers one question at a time, and names what is wrong with it", "[apps][margin]") {
+  const Command command;
+  const std::vector<Words> wrong{{"--bands", "support.frequency=2:30", "--sensitivities"},
+                                 {"--bands", "support.frequency=2:30", "--parameters", "support.frequency"},
+                                 {"--bands", "support.frequency=30:2"},
+                                 {"--bands", "support.frequency=0:2"},
+                                 {"--bands", "support.frequency"},
+                                 {"--bands", "support.frequncy=1:2"},
+                                 {"--bands", "support.frequency=1:nan"},
+                                 {"--bands", "support.frequency=1:2 m"},
+                                 {"--count", "3"},
+                                 {"--edge", "support.frequency"},
+                                 {"--sensitivities", "--edge", "support.frequncy"},
+                                 {"--sensitivities", "--edge", "pendulum.mass"},
+                                 {"--closing-damping", "support.frequency=2:1"},
+                                 {"--closing-damping", "pendulum.damping=0:1"},
+                                 {"--closing-damping", "support.frequency=2:30", "--count", "1"},
+                                 {"--box", "support.frequency=2:1"},
+                                 {"--box", "support.phase=0:1"},
+                                 {"--box", ""},
+                                 {"--box", "support.frequency=2:3", "--tolerance", "1"}};
+  for (const Words& words : wrong) {
+    CAPTURE(words);
+    const Result result = command.run(words);
+    CHECK(result.code == 2);
+    CHECK_THAT(result.err, Catch::Matchers::Contains("--"));
+    CHECK(result.out.empty());
+  }
+  for (const Words& words : std::vector<Words>{{"--bands", "support.frequency=2:30"},
+                                               {"--closing-damping", "support.frequency=2:30"},
+                                               {"--box", "support.frequency=2:30"},
+                                               {"--sensitivities"}}) {
+    Words dry = words;
+    dry.push_back("--dry-run");
+    const Result result = command.run(dry);
+    CHECK(result.code == 0);
+    CHECK_THAT(result.out, Catch::Matchers::Contains("# model: pendulum, hanging"));
+  }
+}
+
 TEST_CASE("margin names the flag or the scene that is wrong", "[apps][margin]") {
   const Command command;
   const Result unknown = command.run({"--parameters", "support.frequncy"});

@@ -20,7 +20,7 @@ Scene rod(Equilibrium about, double amplitude, double frequency, double damping 
 
 Verdict verdict_at(Scene scene, const std::string& path, double value) {
   parameter(scene, path) = value;
-  MonodromyEngine engine;
+  static MonodromyEngine engine;
   return analyse(engine, linear_model(scene), {.tolerance = 1e-13}).verdict;
 }
 

@@ -5,6 +5,7 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
+#include "strutt/floquet/sensitivity.hpp"
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt::test {
@@ -42,7 +43,7 @@ Scene coupled_scene(double period, double coupling = -0.3) {
 
 Verdict verdict_at(Scene scene, const std::vector<std::string>& paths, const std::vector<double>& values) {
   for (std::size_t i = 0; i < paths.size(); ++i) parameter(scene, paths[i]) = values[i];
-  MonodromyEngine engine;
+  static MonodromyEngine engine;
   return analyse(engine, linear_model(scene), {.tolerance = 1e-13}).verdict;
 }
 
@@ -162,11 +163,61 @@ TEST_CASE("the joint margin is an edge, not further than any single one, and no 
   }
 }
 
-TEST_CASE("a thin tongue beside the design is not overlooked", "[chart][margin][extreme]") {
+TEST_CASE("edges move as their sensitivities say, for every model", "[chart][margin][sensitivity]") {
+  Scene damped = coupled_scene(3.0);
+  damped.linear->damping.mean = Eigen::Matrix2d{{0.05, 0.01}, {0.0, 0.1}};
+  Scene hill;
+  hill.hill = HillTable{.period = 5.0, .mean = 0.9, .harmonics = {{1, 0.4, 0.0}, {3, 0.1, 0.2}}};
+  const std::vector<std::pair<Scene, std::string>> cases{
+      {mathieu_scene(0.6, 0.4), "mathieu.delta"},
+      {mathieu_scene(1.4, 0.7, 0.05), "mathieu.epsilon"},
+      {rod(Equilibrium::hanging, 0.05, 12.0, 0.1), "support.frequency"},
+      {rod(Equilibrium::inverted, 0.05, 120.0), "support.amplitude"},
+      {hill, "hill.mean"},
+      {square_scene(0.8, 0.3), "hill.mean"},
+      {damped, "linear.period"}};
+  MonodromyEngine engine;
+  for (const auto& [scene, along] : cases) {
+    const auto first = stability_margin(scene, {along}, {.tolerance = 1e-10}).parameters.front();
+    const bool lower = first.lower_edge && (!first.upper_edge || first.value - *first.lower_edge <=
+                                                                     *first.upper_edge - first.value);
+    const double position = lower ? *first.lower_edge : *first.upper_edge;
+    Scene on_edge = scene;
+    parameter(on_edge, along) = position;
+    for (const std::string& by : stability_parameters(scene)) {
+      const double value = parameter(scene, by), step = 1e-3 * std::max(0.1, std::abs(value));
+      if (by == along || value == 0.0) continue;
+      CAPTURE(describe(scene), along, by);
+      const auto edge_at = [&, way = along](double p) {
+        Scene moved = scene;
+        parameter(moved, by) = p;
+        const auto row = stability_margin(moved, {way}, {.tolerance = 1e-10}).parameters.front();
+        return lower ? *row.lower_edge : *row.upper_edge;
+      };
+      const double expected = (8.0 * (edge_at(value + step) - edge_at(value - step)) -
+                               (edge_at(value + 2 * step) - edge_at(value - 2 * step))) /
+                              (12.0 * step);
+      const Derivative found = edge_shift(engine, on_edge, along, by);
+      CHECK(found.error <= 1e-9 * std::max(1.0, std::abs(found.value)));
+      CHECK(std::abs(found.value - expected) <= found.error + 1e-7 * std::max(1.0, std::abs(expected)));
+    }
+    CHECK(edge_shift(engine, on_edge, along, along).value == 0.0);
+  }
+}
+
+TEST_CASE("a thin tongue beside the design is not overlooked", "[chart][margin]") {
   // tongue 6 at epsilon = 0.01 is 2e-18 wide
   const auto row = stability_margin(mathieu_scene(9.1, 0.01), {"mathieu.delta"}).parameters.front();
   CHECK(row.tongue == 6);
   CHECK(*row.lower_edge == Approx(9.000001428571).epsilon(1e-12));
+}
+
+TEST_CASE("beyond a thousand tongues the distance is not known, and said to be so", "[chart][margin]") {
+  const auto margin = stability_margin(mathieu_scene(1e6, 10.0), {"mathieu.delta"});
+  CHECK(std::isnan(margin.parameters.front().distance));
+  CHECK(std::isnan(margin.joint.distance));
+  CHECK(margin.parameters.front().outcome == Outcome::tolerance_not_reached);
+  CHECK(margin.joint.outcome == Outcome::tolerance_not_reached);
 }
 
 TEST_CASE("closed tongues bound nothing", "[chart][margin]") {

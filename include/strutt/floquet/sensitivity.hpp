@@ -49,4 +49,10 @@ struct Sensitivity {
 Sensitivity sensitivity(MonodromyEngine& engine, const Scene& scene, std::string_view path,
                         const MonodromyOptions& options = {.tolerance = 1e-12});
 
+/// How far an edge of stability on the line `along` moves for a change of the parameter `by`:
+/// d(position)/d(by), at a scene that lies on the edge; -edge(by)/edge(along), and its error. 0 for
+/// `along` itself, NaN where the edge has no such slope.
+Derivative edge_shift(MonodromyEngine& engine, const Scene& on_edge, std::string_view along,
+                      std::string_view by, const MonodromyOptions& options = {.tolerance = 1e-12});
+
 }  // namespace strutt
