@@ -1,7 +1,7 @@
 """The ratchet of the accuracy tests, and docs/extremes.md.
 
     check  LOG             what the tests observed (support/ratchet.hpp) against worst.csv: fails when an allowance is more
-                           than 8 times the worst ever observed, is not the recorded one, or a name is new or gone
+                           than 8 times the worst ever observed (or 2^-53), is not the recorded one, or a name is new or gone
     update LOG             records new names and allowances, and errors worse than before
     page   TESTS [--write] docs/extremes.md from extremes.toml, worst.csv and the tags of the test program: fails when the
                            page is another one, or writes it
@@ -21,6 +21,7 @@ import tomllib
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SLACK = 8.0
+ROUNDING = 2.0**-53  # what is met exactly today may be off by this on another machine
 ROWS = [f"N{number:02}" for number in [*range(1, 23), *range(35, 53)]]
 
 Record = collections.namedtuple("Record", "allowed observed")
@@ -51,7 +52,7 @@ def check(log, worst):
         ever = worst[name]
         if float(ever.allowed) != allowed:
             complaints.append(f"'{name}' allows {now.allowed}, recorded is {ever.allowed}")
-        if allowed > SLACK * float(ever.observed):
+        if allowed > SLACK * max(float(ever.observed), ROUNDING):
             complaints.append(f"'{name}' is slack: {now.allowed} allowed, never more than {ever.observed} observed")
     complaints += [f"'{name}' is recorded and was not observed" for name in worst if name not in log]
     return complaints
@@ -103,8 +104,8 @@ seen. This page is generated from the tags of the tests and from what they measu
 ([tests/accuracy](../tests/accuracy)); a test fails when it is out of date. `strutt_tests "[N04]"` runs the tests of a
 row.
 
-A ratchet keeps the tolerances tight: an allowance may not be more than 8 times the worst error ever observed, and a
-measurement that was there once may not disappear.
+A ratchet keeps the tolerances tight: an allowance may not be more than 8 times the worst error ever observed (or eight
+roundings), and a measurement that was there once may not disappear.
 """
 
 DEFECTS = """## Faults known from other programs

@@ -22,8 +22,10 @@ class Ratchet(unittest.TestCase):
     def test_a_slack_allowance_is_refused(self):
         worst = {"width": Record("1e-11", "1.2e-12")}
         self.assertIn("slack", accuracy.check({"width": Record("1e-11", "1e-12")}, worst)[0])
-        worst = {"exact": Record("0", "0")}
-        self.assertEqual(accuracy.check({"exact": Record("0", "0")}, worst), [])
+        exact = {"exact": Record("8e-16", "0")}  # eight roundings are never slack
+        self.assertEqual(accuracy.check(exact, exact), [])
+        exact = {"exact": Record("9e-16", "0")}
+        self.assertIn("slack", accuracy.check(exact, exact)[0])
 
     def test_an_allowance_that_was_changed_is_refused(self):
         self.assertIn("recorded is 2", self.run_with(edge=Record("3", "1.5"))[0])

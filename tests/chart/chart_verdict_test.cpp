@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "strutt/chart/stability_chart.hpp"
-#include "support/mathieu_edges.hpp"
+#include "support/hill_edges.hpp"
 
 namespace strutt::test {
 
@@ -19,7 +19,7 @@ TEST_CASE("no wrong verdict among a million cells of a chart by surrogate",
   std::size_t decided = 0, wrong = 0, cells = 0;
   const auto summary = compute_chart(scene, request, [&](const ChartStrip& strip) {
     for (std::size_t row = 0; row < strip.rows; ++row) {
-      const MathieuEdges edges(request.y.value(strip.first_row + row), 10);
+      const HillEdges edges(request.y.value(strip.first_row + row), 10);
       for (std::size_t column = 0; column < strip.columns; ++column) {
         const auto found =
             static_cast<Verdict>(static_cast<int>(strip.values[0][row * strip.columns + column]));

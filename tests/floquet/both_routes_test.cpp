@@ -2,11 +2,12 @@
 // routes that share no mathematics beyond the equation, compared over the whole range of the first.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <random>
 
 #include "strutt/floquet/characteristic_values.hpp"
-#include "strutt/floquet/monodromy.hpp"
+#include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 
 using namespace strutt;
@@ -94,4 +95,29 @@ TEST_CASE("both routes agree within their bounds at |q| up to 1e8 and orders up 
   const double largest = largest_disagreement(20, 3.0, 8.0, 10'000, 2);
   check_within("N13 both routes to an edge up to |q| = 1e8: distance over the sum of the bounds", largest,
                2.0);
+}
+
+TEST_CASE("The frequency from which an inverted rod stands, by both routes",
+          "[floquet][characteristic][known][ratchet]") {
+  // r0/l = 0.05: epsilon = 3 r0/(2 l) = 0.075; the edge of tongue 0 is delta = -(alpha/omega)^2 = a_0(2
+  // epsilon)/4
+  const double epsilon = 1.5 * 0.05;
+  const double by_edges = std::sqrt(-4.0 / characteristic_values(0, 0, 2.0 * epsilon).at(0).a.value);
+  const auto rod = PhysicalPendulum::uniform_rod(1.0, 0.8);
+  MonodromyEngine engine;
+  const auto stands = [&](double ratio) {
+    const auto support = sinusoidal_support(0.05 * 0.8, ratio * rod.alpha());
+    const auto equation = linearise(rod, Equilibrium::inverted, &support).equation;
+    return discriminant_gap(engine.compute(equation, {.tolerance = 1e-13})).gap > 0.0;
+  };
+  double low = 10.0, high = 30.0;
+  REQUIRE((!stands(low) && stands(high)));
+  while (high - low > 1e-15 * low) {
+    const double middle = std::midpoint(low, high);
+    if (middle == low || middle == high) break;
+    (stands(middle) ? high : low) = middle;
+  }
+  CHECK(by_edges == Approx(18.85).epsilon(1e-2));  // Kapitza: omega/alpha = sqrt(2)/epsilon, to lowest order
+  check_within("frequency from which an inverted rod stands: difference of both routes (relative)",
+               std::abs(high / by_edges - 1.0), 1e-14);
 }

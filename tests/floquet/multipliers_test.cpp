@@ -6,8 +6,11 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 
 using namespace strutt;
+using strutt::test::check_close;
+using strutt::test::check_within;
 
 namespace {
 
@@ -29,15 +32,18 @@ Stability at(const LinearModel& model, double tolerance = 1e-10) {
 
 }  // namespace
 
-TEST_CASE("Multipliers of a 2 x 2 system: product, sum, order", "[floquet][multipliers][law]") {
+TEST_CASE("Multipliers of a 2 x 2 system: product, sum, order", "[floquet][multipliers][law][ratchet]") {
   for (const double delta : {-2.0, 0.3, 1.0, 3.7}) {
     for (const double c : {0.0, 0.1, 3.0}) {
       const auto result = at(mathieu_delta_epsilon(delta, 1.2, c));
       REQUIRE(result.multipliers.size() == 2);
       const auto product = result.multipliers[0] * result.multipliers[1];
       const auto sum = result.multipliers[0] + result.multipliers[1];
-      CHECK(std::abs(product - std::exp(-kTwoPi * c)) <= 1e-9 * std::exp(-kTwoPi * c));
-      CHECK(std::abs(sum - result.discriminant) <= 1e-9 * std::max(1.0, std::abs(result.discriminant)));
+      check_within("product of two multipliers (relative)", std::abs(product * std::exp(kTwoPi * c) - 1.0),
+                   8e-15);
+      const double size = std::max(1.0, std::abs(result.discriminant));
+      check_within("sum of two multipliers against the trace (scaled)",
+                   std::abs(sum - result.discriminant) / size, 6e-15);
       CHECK(std::abs(result.multipliers[0]) >= std::abs(result.multipliers[1]) * (1.0 - 1e-15));
       CHECK(std::log(std::abs(result.multipliers[0])) == Approx(result.growth).margin(1e-12));
       if (result.multipliers[0].imag() != 0.0) CHECK(result.multipliers[0].imag() > 0.0);
@@ -52,7 +58,7 @@ TEST_CASE("The small multiplier survives beside a huge one", "[floquet][multipli
   CHECK(std::abs(result.multipliers[0]) > 1e15);
 }
 
-TEST_CASE("Uncoupled oscillators have the multipliers of each", "[floquet][multipliers]") {
+TEST_CASE("Uncoupled oscillators have the multipliers of each", "[floquet][multipliers][ratchet]") {
   const auto result = at(oscillators(1.3, 2.9, 0.0, 0.0));
   CHECK(result.verdict == Verdict::stable);
   CHECK(result.growth == 0.0);
@@ -60,7 +66,8 @@ TEST_CASE("Uncoupled oscillators have the multipliers of each", "[floquet][multi
   const double expected = std::min(1.0 - std::abs(std::cos(kTwoPi * std::sqrt(1.3))), 1.0 - std::abs(std::cos(kTwoPi * std::sqrt(2.9))));
   CHECK(std::abs(result.margin - expected) <= result.margin_error);
   CHECK(result.margin_error < 1e-8);
-  for (const auto& multiplier : result.multipliers) CHECK(std::abs(multiplier) == Approx(1.0).epsilon(1e-9));
+  for (const auto& multiplier : result.multipliers)
+    check_close("modulus of the multipliers of uncoupled oscillators", std::abs(multiplier), 1.0, 2e-15);
 }
 
 TEST_CASE("Combination resonance: unstable at the sum of the frequencies only", "[floquet][multipliers]") {
@@ -72,11 +79,12 @@ TEST_CASE("Combination resonance: unstable at the sum of the frequencies only", 
   CHECK(at(oscillators(0.09, 0.60, 0.0, 0.02)).verdict == Verdict::stable);
 }
 
-TEST_CASE("Proportional damping shifts growth by cT/2 and closes the resonance", "[floquet][multipliers]") {
+TEST_CASE("Proportional damping shifts growth by cT/2 and closes the resonance",
+          "[floquet][multipliers][ratchet]") {
   const double growth = at(oscillators(0.09, 0.49, 0.0, 0.02)).growth;
   const double c = 0.01;
   auto damped = oscillators(0.09 + c * c / 4.0, 0.49 + c * c / 4.0, 0.0, 0.02, c);
-  CHECK(at(damped).growth == Approx(growth - c * kTwoPi / 2.0).epsilon(1e-8));
+  check_close("growth of a damped system (relative)", at(damped).growth, growth - c * kTwoPi / 2.0, 8e-16);
   CHECK(at(oscillators(0.09, 0.49, 0.0, 0.02, 0.05)).verdict == Verdict::stable);
   CHECK(at(oscillators(0.09, 0.49, 0.0, 0.02, 0.05)).margin > 0.0);
 }
@@ -107,14 +115,15 @@ TEST_CASE("Equal oscillators: colliding roots are unresolved unless another root
   CHECK(at(oscillators(-1.3, -1.3, 0.0, 0.0)).verdict == Verdict::unstable);
 }
 
-TEST_CASE("One degree of freedom as a system is the Hill equation it is", "[floquet][multipliers][law]") {
+TEST_CASE("One degree of freedom as a system is the Hill equation it is",
+          "[floquet][multipliers][law][ratchet]") {
   LinearPeriodicSystem system;
   system.mass = Eigen::MatrixXd{{2.0}};
   system.damping.mean = Eigen::MatrixXd{{0.2}};
   system.stiffness = {Eigen::MatrixXd{{2.6}}, {{1, Eigen::MatrixXd{{1.0}}, {}}}};
   const auto a = at(system), b = at(mathieu_delta_epsilon(1.3, 0.5, 0.1));
-  CHECK(a.margin == Approx(b.margin).epsilon(1e-9));
-  CHECK(a.growth == Approx(b.growth).epsilon(1e-9));
+  check_close("margin of a system that is a Hill equation (relative)", a.margin, b.margin, 8e-16);
+  check_close("growth of a system that is a Hill equation (relative)", a.growth, b.growth, 8e-16);
   CHECK((a.matrix - b.matrix).cwiseAbs().maxCoeff() < 1e-9);
   // negative damping is no Hill scene: the general route answers
   system.damping.mean = Eigen::MatrixXd{{-0.2}};

@@ -7,6 +7,7 @@
 #include "support/ratchet.hpp"
 
 using namespace strutt;
+using strutt::test::check_close;
 using strutt::test::check_within;
 
 namespace {
@@ -97,10 +98,11 @@ TEST_CASE("Tiny and huge damping", "[floquet][verdict][extreme][N22][ratchet]") 
   // on the stable side the margin is 1 - |D|/(2 cosh h): it sees c = 1e-9 only through h^2/2
   const auto slightly = at(1.0, 0.0, 1e-9);
   CHECK(slightly.verdict == Verdict::stable);
-  CHECK(slightly.growth == Approx(-1e-9 * std::numbers::pi).epsilon(1e-12));
+  check_close("N22 growth with damping 1e-9 on an edge (relative)", slightly.growth, -1e-9 * std::numbers::pi,
+              8e-16);
   const double h = 1e-9 * std::numbers::pi;
   // w = 1 - c^2/4 moves D away from 2 as well: D = 2 cos(2 pi sqrt(1 - c^2/4)), of higher order
-  CHECK(slightly.margin == Approx(h * h / 2.0).epsilon(1e-9));
+  check_close("N22 margin with damping 1e-9 on an edge (relative)", slightly.margin, h * h / 2.0, 8e-16);
   const auto heavy = at(1.0, 0.5, 400.0, 1e-6);
   CHECK(heavy.verdict == Verdict::stable);
   CHECK(heavy.growth < 0.0);
@@ -121,7 +123,8 @@ TEST_CASE("Growth has the sign of -margin and the closed form of constant coeffi
     const auto result = at(delta, 0.0, 0.7);
     CHECK(result.growth * result.margin < 0.0);
     const double exponent = delta > 0.0 ? -delta / (0.35 + std::sqrt(0.1225 - delta)) : -0.35 + std::sqrt(0.1225 - delta);
-    CHECK(result.growth == Approx(2.0 * std::numbers::pi * exponent).epsilon(1e-6));
+    check_close("growth next to a damped edge (relative)", result.growth, 2.0 * std::numbers::pi * exponent,
+                6e-8);
   }
 }
 

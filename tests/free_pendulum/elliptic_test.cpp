@@ -66,7 +66,8 @@ TEST_CASE("the incomplete integral, over many half turns", "[free_pendulum][elli
   check_within("F(psi; k') (relative)", relative_error(value, truth), 1.2e-16);
 }
 
-TEST_CASE("Jacobi's functions of a phase in turns", "[free_pendulum][elliptic][accuracy][defect][ratchet]") {
+TEST_CASE("Boost, SciPy #8480: Jacobi's functions of a phase in turns",
+          "[free_pendulum][elliptic][accuracy][defect][ratchet]") {
   // k = 1e-5, about 1.6e8 turns: there Boost's series for small k is off by 3e-4 in double
   const double k_prime = GENERATE(1.0, 1.0 - 1e-13, 0.99999999995, 0.9, 0.3, 1e-3, 1e-9, 1e-17);
   // next to 0.25 Boost's dn is 0/0 in double, beyond u = 355 (k' = 1e-300) SciPy's ellipj was NaN (#8480)
@@ -85,7 +86,8 @@ TEST_CASE("Jacobi's functions of a phase in turns", "[free_pendulum][elliptic][a
   check_within("dn of a phase in turns (relative)", relative_error(f.dn, true_dn), 1.2e-16);
 }
 
-TEST_CASE("dn at the quarter period is k' itself", "[free_pendulum][elliptic][exact][defect]") {
+TEST_CASE("Boost, SciPy #3904: dn at the quarter period is k' itself",
+          "[free_pendulum][elliptic][exact][defect]") {
   for (const double k_prime : {1.0, 0.3, 1e-17, 1e-300}) {
     CHECK(jacobi_functions(0.25, ComplementaryModulus(k_prime)).dn == k_prime);
     CHECK(jacobi_functions(0.75, ComplementaryModulus(k_prime)).sn == -1.0);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -68,6 +69,10 @@ void check_within(std::string_view what, double observed, double allowed) {
   entry->second = std::max(entry->second, observed);
   INFO(std::string(what));
   CHECK(observed <= allowed);
+}
+
+void check_close(std::string_view what, double value, double expected, double allowed) {
+  check_within(what, value == expected ? 0.0 : std::abs(value / expected - 1.0), allowed);
 }
 
 }  // namespace strutt::test

@@ -10,4 +10,7 @@ namespace strutt::test {
 /// The test case has the tag [ratchet], and that of the row.
 void check_within(std::string_view what, double observed, double allowed);
 
+/// The same for the relative difference |value/expected - 1|, 0 where both are equal.
+void check_close(std::string_view what, double value, double expected, double allowed);
+
 }  // namespace strutt::test

@@ -5,17 +5,26 @@
 #include <vector>
 
 #include "strutt/floquet/characteristic_values.hpp"
+#include "strutt/floquet/tongue_edges.hpp"
 #include "strutt/floquet/verdict.hpp"
 
 namespace strutt::test {
 
-/// The edges of Mathieu's tongues at one epsilon > 0, ascending: below the first unstable, then by turns.
-class MathieuEdges {
+/// The edges of the tongues of x'' + (delta + V) x = 0 with their proved indices, ascending: unstable below
+/// the first, then stable and unstable by turns.
+class HillEdges {
  public:
-  MathieuEdges(double epsilon, int last) {
+  /// V = epsilon cos t, epsilon > 0.
+  HillEdges(double epsilon, int last) {
     for (const auto& [order, a, b] : characteristic_values(0, last, 2.0 * epsilon)) {
       if (b) edges_.push_back({b->value / 4.0, b->error / 4.0});
       edges_.push_back({a.value / 4.0, a.error / 4.0});
+    }
+  }
+  HillEdges(const PeriodicFunction& v, int last) {
+    for (const auto& [order, lower, upper] : tongue_edges(v, 0, last)) {
+      if (lower) edges_.push_back(*lower);
+      edges_.push_back(upper);
     }
   }
   const CharacteristicValue& operator[](std::size_t k) const { return edges_[k]; }
