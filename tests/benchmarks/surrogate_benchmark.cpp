@@ -12,10 +12,10 @@
 
 #include <algorithm>
 #include <array>
-
 #include <chrono>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "benchmarks/eigen_product.hpp"
@@ -56,12 +56,8 @@ std::vector<std::vector<double>> arrays(std::size_t n, std::size_t layers) {
 
 strutt::ChartSummary chart_into(std::vector<std::vector<double>>& results, const strutt::Scene& scene,
                                 const strutt::ChartRequest& request) {
-  return strutt::compute_chart(scene, request, [&](const strutt::ChartStrip& strip) {
-    const std::size_t offset = strip.first_row * strip.columns;
-    for (std::size_t l = 0; l < results.size(); ++l)
-      std::copy(strip.values[l].begin(), strip.values[l].end(),
-                results[l].begin() + static_cast<std::ptrdiff_t>(offset));
-  });
+  const std::vector<std::span<double>> places(results.begin(), results.end());
+  return strutt::compute_chart(scene, request, places);
 }
 
 EigenProduct product_here() {
