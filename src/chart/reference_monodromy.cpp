@@ -207,4 +207,12 @@ double true_error(const Monodromy& truth, const Stability& result) {
   return static_cast<double>(Real(difference / largest));
 }
 
+double trace_error(const Monodromy& truth, const Stability& result) {
+  if (!std::isfinite(result.discriminant)) return std::numeric_limits<double>::infinity();
+  Real largest = 1, trace = 0;
+  for (const auto& entry : truth.matrix.entries) largest = std::max(largest, Real(abs(entry)));
+  for (int i = 0; i < truth.matrix.rows; ++i) trace += truth.matrix(i, i);
+  return static_cast<double>(Real(abs(result.discriminant * exp(Real(result.log_scale)) - trace) / largest));
+}
+
 }  // namespace strutt::judge

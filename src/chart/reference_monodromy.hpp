@@ -24,4 +24,7 @@ std::optional<Monodromy> monodromy(const Equation& equation, const std::atomic<b
 /// (docs/conventions.md); +inf where there is no matrix.
 double true_error(const Monodromy& truth, const Stability& result);
 
+/// The same of the trace alone.
+double trace_error(const Monodromy& truth, const Stability& result);
+
 }  // namespace strutt::judge

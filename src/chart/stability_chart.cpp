@@ -7,9 +7,11 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "chart/cell_engine.hpp"
 #include "chart/surrogate_cells.hpp"
+#include "strutt/base/error.hpp"
 #include "strutt/base/floating_point.hpp"
 #include "strutt/base/parallel.hpp"
 
@@ -78,8 +80,8 @@ class PointByPoint {
       count = std::min(batch_.size(), places.size() - start);
       const std::size_t together = std::clamp<std::size_t>(count / (4 * engines_.size()), 1, kMostTogether);
       const std::span<const std::size_t> some(&places[start], count);
-      const bool complete = parallel_for_ranges(
-          count, together, parallel_, [&](std::size_t first, std::size_t last, int slot) {
+      const bool complete =
+          parallel_for_ranges(count, together, parallel_, [&](std::size_t first, std::size_t last, int slot) {
             fill_cells(strip, some.subspan(first, last - first), &records_[first],
                        *engines_[static_cast<std::size_t>(slot)]);
           });
@@ -120,18 +122,17 @@ class PointByPoint {
   std::vector<std::unique_ptr<CellEngine>> engines_;
 };
 
-}  // namespace
+/// Points the strip, whose rows are set, to where its values go.
+using Placement = std::function<void(ChartStrip& strip)>;
 
-ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, const StripSink& sink,
-                           const ProgressSink& progress) {
+ChartSummary compute(const Scene& scene, const ChartRequest& request, const Placement& place,
+                     const StripSink& sink, const ProgressSink& progress) {
   const DefaultFloatingPoint environment;
   const ChartPlan plan = plan_chart(scene, request);
   const std::size_t nx = request.x.points, ny = request.y.points;
   ChartSummary summary;
   summary.outcomes.assign(kOutcomeCount, 0);
   summary.methods.assign(kMethodCount, 0);
-  ChartStrip strip{.columns = nx, .values = std::vector<std::vector<double>>(request.layers.size())};
-  for (auto& layer : strip.values) layer.reserve(plan.rows_per_strip * nx);
   PointByPoint points(scene, request, plan.cells, progress);
   std::optional<SurrogateCells> surrogate;
   if (plan.method == Method::surrogate) {
@@ -142,24 +143,54 @@ ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, cons
     if (summary.cancelled) return summary;
   }
 
+  ChartStrip strip{.columns = nx, .values = std::vector<std::span<double>>(request.layers.size())};
   std::vector<std::size_t> places;
   for (strip.first_row = 0; strip.first_row < ny; strip.first_row += strip.rows) {
     strip.rows = std::min(plan.rows_per_strip, ny - strip.first_row);
-    const std::size_t cells = strip.rows * nx;
-    for (auto& layer : strip.values) layer.resize(cells);  // the last strip may be shorter
+    place(strip);
     bool complete = true;
     if (surrogate) {
       complete = surrogate->fill(strip, summary, places);
       if (complete && progress) progress(summary.cells, plan.cells);
     } else {
-      places.resize(cells);
+      places.resize(strip.rows * nx);
       std::iota(places.begin(), places.end(), std::size_t{0});
     }
     summary.cancelled = !complete || !points.fill(strip, summary, places);
     if (summary.cancelled) return summary;
-    sink(strip);
+    if (sink) sink(strip);
   }
   return summary;
+}
+
+}  // namespace
+
+ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, const StripSink& sink,
+                           const ProgressSink& progress) {
+  std::vector<std::vector<double>> buffers(request.layers.size());
+  const auto into_buffers = [&](ChartStrip& strip) {
+    for (std::size_t l = 0; l < buffers.size(); ++l) {
+      buffers[l].resize(strip.rows * strip.columns);  // the last strip may be shorter
+      strip.values[l] = buffers[l];
+    }
+  };
+  return compute(scene, request, into_buffers, sink, progress);
+}
+
+ChartSummary compute_chart(const Scene& scene, const ChartRequest& request,
+                           std::span<const std::span<double>> arrays, const ProgressSink& progress) {
+  const std::size_t cells = request.x.points * request.y.points;
+  if (arrays.size() != request.layers.size())
+    throw InvalidInput("arrays", std::to_string(arrays.size()), "one for each layer");
+  for (const auto& array : arrays) {
+    if (array.size() != cells)
+      throw InvalidInput("array of a layer", std::to_string(array.size()), "as long as the chart has cells");
+  }
+  const auto into_arrays = [&](ChartStrip& strip) {
+    for (std::size_t l = 0; l < arrays.size(); ++l)
+      strip.values[l] = arrays[l].subspan(strip.first_row * strip.columns, strip.rows * strip.columns);
+  };
+  return compute(scene, request, into_arrays, {}, progress);
 }
 
 }  // namespace strutt

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "chart/chebyshev.hpp"
-#include "chart/point_equation.hpp"
 #include "chart/surrogate_box.hpp"
 #include "chart/surrogate_build.hpp"
 #include "chart/surrogate_scope.hpp"
@@ -80,54 +79,20 @@ Surrogate::Surrogate(SurrogateData data) : data_(std::move(data)) {
   }
 }
 
-const SurrogateBox* Surrogate::box_at(double x, double y) const {
+std::size_t Surrogate::box_at(double x, double y) const {
   const double at_x = coordinate(data_.x, x), at_y = coordinate(data_.y, y);
   const auto found = std::find_if(data_.boxes.begin(), data_.boxes.end(), [&](const SurrogateBox& box) {
     return at_x >= box.low[0] && at_x <= box.high[0] && at_y >= box.low[1] && at_y <= box.high[1];
   });
-  return found == data_.boxes.end() || !found->interpolated ? nullptr : &*found;
-}
-
-std::optional<Surrogate::Point> Surrogate::point_at(double x, double y) const {
-  const SurrogateBox* const box = box_at(x, y);
-  if (box == nullptr) return std::nullopt;
-  Scene scene = data_.scene;
-  parameter(scene, data_.x.parameter) = x;
-  parameter(scene, data_.y.parameter) = y;
-  return Point{box, linear_model(scene)};
-}
-
-std::optional<HillMonodromy> Surrogate::hill_monodromy(double x, double y) const {
-  const DefaultFloatingPoint environment;
-  const auto point = point_at(x, y);
-  if (!point || !hill_equation_of(point->model)) return std::nullopt;
-  const auto scale = point_equation(point->model, data_.even_phase);
-  if (!scale) return std::nullopt;
-  const SurrogateBox& box = *point->box;
-  const auto value = evaluate(box, coordinate(data_.x, x), coordinate(data_.y, y));
-  return hill_monodromy_of(data_.kind, at_kappa(value, error_matrix(box), scale->sample.kappa / box.kappa),
-                           box.exponent, scale->sample, scale->angular_frequency, data_.tolerance);
-}
-
-std::optional<Monodromy> Surrogate::monodromy(double x, double y) const {
-  const DefaultFloatingPoint environment;
-  const auto point = point_at(x, y);
-  if (!point) return std::nullopt;
-  if (hill_equation_of(point->model)) {
-    const auto found = hill_monodromy(x, y);
-    return found ? std::optional(widened(*found)) : std::nullopt;
-  }
-  const auto scale = point_equation(point->model, std::nullopt);
-  const SurrogateBox& box = *point->box;
-  const auto value = evaluate(box, coordinate(data_.x, x), coordinate(data_.y, y));
-  return system_monodromy_of(at_kappa(value, error_matrix(box), scale->sample.kappa / box.kappa),
-                             box.exponent, scale->sample, scale->angular_frequency, data_.tolerance);
+  if (found == data_.boxes.end() || !found->interpolated) return SurrogateEntries::kNone;
+  return static_cast<std::size_t>(found - data_.boxes.begin());
 }
 
 std::optional<SurrogateGradient> Surrogate::gradient(double x, double y) const {
   const DefaultFloatingPoint environment;
-  const SurrogateBox* const box = box_at(x, y);
-  if (box == nullptr) return std::nullopt;
+  const std::size_t found = box_at(x, y);
+  if (found == SurrogateEntries::kNone) return std::nullopt;
+  const SurrogateBox* const box = &data_.boxes[found];
   const auto place = [&](std::size_t axis, double v) {
     return (v - 0.5 * (box->low[axis] + box->high[axis])) / half_width(*box, axis);
   };

@@ -5,6 +5,7 @@
 
 #include "chart/box_error.hpp"
 #include "chart/chebyshev.hpp"
+#include "chart/clenshaw_kernel.hpp"
 #include "chart/degree_ladder.hpp"
 
 namespace strutt {
@@ -165,23 +166,45 @@ BoxBuild build_box(SurrogateBox& box, SurrogateKind kind, const Sampling& sampli
   return {ladder.outcome, grid.samples().size(), grid.right_hand_sides()};
 }
 
-Eigen::MatrixXd evaluate(const SurrogateBox& box, double x, double y) {
-  const auto local = [&](std::size_t axis, double v) {
+void evaluate(const SurrogateBox& box, std::span<const double> x, std::span<const double> y, double* values) {
+  const auto local = [&](std::size_t axis, std::span<const double> coordinates) {
     const double middle = 0.5 * (box.low[axis] + box.high[axis]),
                  half = 0.5 * (box.high[axis] - box.low[axis]);
-    return (v - middle) / half;
+    std::vector<double> result;
+    for (const double c : coordinates) result.push_back((c - middle) / half);
+    return result;
   };
-  const double s = local(0, x), t = local(1, y);
-  Eigen::MatrixXd in_x, in_y;
-  chebyshev::polynomials({&s, 1}, static_cast<int>(box.coefficients[0].rows()) - 1, in_x);
-  chebyshev::polynomials({&t, 1}, static_cast<int>(box.coefficients[0].cols()) - 1, in_y);
-  Eigen::MatrixXd result = error_matrix(box);  // of the same shape
+  const auto s = local(0, x), t = local(1, y);
+  detail::ScatteredSeries series{.coefficients = {},
+                                 .terms_x = static_cast<std::size_t>(box.coefficients[0].rows()),
+                                 .terms_y = static_cast<std::size_t>(box.coefficients[0].cols()),
+                                 .s = s.data(),
+                                 .t = t.data(),
+                                 .points = s.size(),
+                                 .values = values,
+                                 .stride = s.size()};
+  for (const auto& c : box.coefficients) series.coefficients.push_back(c.data());
+  detail::evaluate(series);
+}
+
+Eigen::MatrixXd evaluate(const SurrogateBox& box, double x, double y) {
+  Eigen::MatrixXd by_columns = error_matrix(box);  // of the same shape
+  evaluate(box, {&x, 1}, {&y, 1}, by_columns.data());
+  return by_columns.transpose();
+}
+
+Eigen::MatrixXd evaluation_error(const SurrogateBox& box) {
+  Eigen::MatrixXd rounding = error_matrix(box);  // of the same shape
+  const auto growth = [](Eigen::Index terms) {
+    const Eigen::ArrayXd j = Eigen::ArrayXd::LinSpaced(terms, 1.0, static_cast<double>(terms));
+    return Eigen::VectorXd((j * (j + 1.0) * (j + 2.0) / 2.0).matrix());
+  };
   for (std::size_t f = 0; f < box.coefficients.size(); ++f) {
-    const auto n = static_cast<std::size_t>(result.rows());
-    result(static_cast<Eigen::Index>(f / n), static_cast<Eigen::Index>(f % n)) =
-        (in_x * box.coefficients[f] * in_y.transpose())(0, 0);
+    const Eigen::MatrixXd size = box.coefficients[f].cwiseAbs();
+    rounding.data()[f] =
+        kUnit * (growth(size.rows()).dot(size.rowwise().sum()) + size.colwise().sum() * growth(size.cols()));
   }
-  return result;
+  return error_matrix(box) + rounding.transpose();
 }
 
 }  // namespace strutt

@@ -83,7 +83,7 @@ std::int8_t category_value(double value) { return static_cast<std::int8_t>(value
 
 std::size_t cell_bytes(Layer layer) { return is_categorical(layer) ? sizeof(std::int8_t) : sizeof(double); }
 
-std::string_view layer_bytes(Layer layer, const std::vector<double>& values, std::string& buffer) {
+std::string_view layer_bytes(Layer layer, std::span<const double> values, std::string& buffer) {
   if (!is_categorical(layer)) return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
   buffer.resize(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) buffer[i] = static_cast<char>(category_value(values[i]));

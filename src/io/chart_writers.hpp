@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,7 +40,7 @@ std::int8_t category_value(double value);
 
 /// A row or more of a layer as the bytes of binary files: int8 for categorical layers (through `buffer`), otherwise
 /// float64. Little-endian, like every machine this is built for.
-std::string_view layer_bytes(Layer layer, const std::vector<double>& values, std::string& buffer);
+std::string_view layer_bytes(Layer layer, std::span<const double> values, std::string& buffer);
 
 /// Bytes of one cell of the layer in binary files.
 std::size_t cell_bytes(Layer layer);

@@ -74,7 +74,7 @@ void FigureData::add(const ChartStrip& strip) {
   }
 }
 
-void FigureData::keep(std::size_t layer, const std::vector<double>& row, std::size_t begin) {
+void FigureData::keep(std::size_t layer, std::span<const double> row, std::size_t begin) {
   for (const std::size_t column : columns_) {
     const double value = row[begin + column];
     layers_[layer].push_back(static_cast<float>(layer == kMargin ? squared_angle(value) : value));

@@ -31,7 +31,7 @@ class FigureData {
   std::vector<float> signed_growth_squared() const;
 
  private:
-  void keep(std::size_t layer, const std::vector<double>& row, std::size_t begin);
+  void keep(std::size_t layer, std::span<const double> row, std::size_t begin);
 
   std::vector<std::size_t> columns_;  // kept, of the chart
   std::vector<std::size_t> rows_;

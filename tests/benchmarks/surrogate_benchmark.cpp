@@ -4,13 +4,18 @@
 //    (n x 20)(20 x n) compiled for the instruction set of this process (STRUTT_ISA), both into arrays that
 //    were written before;
 //  - two coupled pendulums, four states, at 1e-8, beside SUNDIALS point by point.
+//  - the same box at 100,000 scattered points
 //   cells_per_s   by processor time
 //   interpolated  share of the cells that come from the surrogate
 //   to_product    median time by that of one product
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <random>
+#include <span>
 #include <vector>
 
 #include "benchmarks/eigen_product.hpp"
@@ -20,6 +25,9 @@
 #include "strutt/io/scene_file.hpp"
 
 namespace {
+
+using strutt::Layer;
+using strutt::Method;
 
 strutt::Scene mathieu() {
   strutt::Scene scene;
@@ -48,12 +56,8 @@ std::vector<std::vector<double>> arrays(std::size_t n, std::size_t layers) {
 
 strutt::ChartSummary chart_into(std::vector<std::vector<double>>& results, const strutt::Scene& scene,
                                 const strutt::ChartRequest& request) {
-  return strutt::compute_chart(scene, request, [&](const strutt::ChartStrip& strip) {
-    const std::size_t offset = strip.first_row * strip.columns;
-    for (std::size_t l = 0; l < results.size(); ++l)
-      std::copy(strip.values[l].begin(), strip.values[l].end(),
-                results[l].begin() + static_cast<std::ptrdiff_t>(offset));
-  });
+  const std::vector<std::span<double>> places(results.begin(), results.end());
+  return strutt::compute_chart(scene, request, places);
 }
 
 EigenProduct product_here() {
@@ -114,6 +118,24 @@ void chart(benchmark::State& state, std::vector<strutt::Layer> layers, strutt::M
   state.counters["to_product"] = median(charts) / median(products);
 }
 
+/// Points scattered over the same box, by a surrogate that is there: what is interpolated, and all of
+/// Monodromy.
+void scattered(benchmark::State& state, bool monodromies) {
+  const auto request = request_of(1024, {Layer::discriminant}, strutt::Method::surrogate);
+  const strutt::Surrogate surrogate(mathieu(), request.x, request.y, {.tolerance = 1e-10, .threads = 1});
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::vector<std::array<double, 2>> points(static_cast<std::size_t>(state.range(0)));
+  for (auto& p : points) p = {std::lerp(-1.0, 5.0, share(random)), std::lerp(0.0, 6.0, share(random))};
+  for (auto _ : state) {
+    if (monodromies)
+      benchmark::DoNotOptimize(surrogate.hill_monodromies(points));
+    else
+      benchmark::DoNotOptimize(surrogate.entries(points));
+  }
+  report(state, static_cast<double>(points.size()), 1.0);
+}
+
 /// Two pendulums, of which one is shaken (docs/examples/coupled_pendulums.toml).
 void coupled_pendulums(benchmark::State& state, strutt::Method method) {
   const auto n = static_cast<std::size_t>(state.range(0));
@@ -154,9 +176,8 @@ void kernel_product(benchmark::State& state) {
   report(state, static_cast<double>(n) * static_cast<double>(n), 0.0);
 }
 
-using strutt::Layer;
-using strutt::Method;
-
+BENCHMARK_CAPTURE(scattered, entries, false)->Arg(100'000);
+BENCHMARK_CAPTURE(scattered, monodromies, true)->Arg(100'000);
 BENCHMARK_CAPTURE(chart, discriminant, {Layer::discriminant}, Method::surrogate)->Arg(1024)->Arg(4096);
 BENCHMARK_CAPTURE(chart, verdict_growth, {Layer::verdict, Layer::growth}, Method::surrogate)
     ->Arg(1024)

@@ -43,7 +43,8 @@ void check_laws(const Tradeoff& tradeoff) {
     CHECK(row.points_per_second > 0.0);
     CHECK(std::isfinite(row.points_per_second));
     CHECK(row.spread == 0.0);  // a single measurement
-    CHECK((row.method == Method::automatic || row.used == std::vector{row.method}));
+    const bool mixed = row.method == Method::automatic || row.method == Method::surrogate;
+    CHECK((mixed || row.used == std::vector{row.method}));
   }
 }
 
@@ -60,6 +61,32 @@ TEST_CASE("Every method that fits is measured at every decade", "[chart][tradeof
   CHECK(tradeoff.rows.front().tolerance == 1e-2);
   CHECK(tradeoff.rows.back().tolerance == 1e-13);
   CHECK(row_of(tradeoff, Method::propagator, 1e-9).converged == 1);
+}
+
+TEST_CASE("The surrogate of a box is measured, building included", "[chart][tradeoff][surrogate]") {
+  Scene rod;  // a sine: seen from another phase than 0
+  rod.pendulum = PendulumTable{.length = 1.0};
+  rod.support = SupportTable{.amplitude = 0.1, .frequency = 12.0};
+  const auto check = [](const Scene& scene, const Axis& x, const Axis& y) {
+    auto request = quick({1e-4, 1e-9, 1e-13});
+    request.points = scattered_points(x, y, 20);
+    request.methods = {Method::surrogate, Method::propagator};
+    const auto tradeoff = measure_tradeoff(scene, request);
+    check_laws(tradeoff);
+    for (const double tolerance : {1e-4, 1e-9}) {
+      const auto& row = row_of(tradeoff, Method::surrogate, tolerance);
+      CHECK(row.used == std::vector{Method::surrogate});
+      CHECK(row.converged == 20);
+      CHECK(row.right_hand_sides < 0.5 * row_of(tradeoff, Method::propagator, tolerance).right_hand_sides);
+    }
+    // where rounding alone is more than the tolerance the points are computed one by one
+    CHECK(row_of(tradeoff, Method::surrogate, 1e-13).used == std::vector{Method::propagator});
+  };
+  check(mathieu(1.0, 0.5), {"mathieu.delta", -1.0, 5.0, 200}, {"mathieu.epsilon", 0.0, 6.0, 200});
+  check(rod, {"support.frequency", 6.0, 40.0, 200}, {"support.amplitude", 0.0, 0.3, 200});
+  auto request = quick({1e-9});
+  request.methods = {Method::surrogate};
+  CHECK_THROWS_AS(measure_tradeoff(mathieu(1.0, 0.5), request), InvalidInput);  // no box
 }
 
 TEST_CASE("More accuracy is more work", "[chart][tradeoff]") {

@@ -146,7 +146,8 @@ TEST_CASE("strips out of order are a bug that is seen", "[io][chart_file]") {
   const auto writer = make_chart_writer(directory / name, d);
   CHECK_THROWS_AS(writer->write(strip_of(d, 1, 1)), std::logic_error);
   auto padded = strip_of(d, 0, 3);
-  padded.values[0].push_back(0.0);
+  padded.layers[0].push_back(0.0);
+  padded.values[0] = padded.layers[0];
   CHECK_THROWS_AS(writer->write(padded), std::logic_error);
   writer->write(strip_of(d, 0, 3));
   CHECK_THROWS_AS(writer->write(strip_of(d, 3, 2)), std::logic_error);

@@ -9,6 +9,7 @@
 #include "io/figure_data.hpp"
 #include "io/figure_format.hpp"
 #include "io/figure_labels.hpp"
+#include "io/own_strip.hpp"
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/verdict.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 using test::content_of;
 using test::message_of;
+using test::OwnStrip;
 using test::ScratchDirectory;
 
 /// The function x^2 + y^2 on [-1, 1] x [-1, 1].
@@ -50,14 +52,16 @@ ChartDescription description_of(std::size_t nx, std::size_t ny) {
   return d;
 }
 
-ChartStrip strip_of(std::size_t nx, std::size_t ny) {
-  ChartStrip strip{0, ny, nx, std::vector<std::vector<double>>(3)};
+OwnStrip strip_of(std::size_t nx, std::size_t ny) {
+  std::vector<double> verdict, growth, margin;
   for (std::size_t k = 0; k < nx * ny; ++k) {
     const double excess = static_cast<double>(k % nx) / static_cast<double>(nx) - 0.5;
-    strip.values[0].push_back(static_cast<double>(excess > 0.0 ? Verdict::unstable : Verdict::stable));
-    strip.values[1].push_back(std::max(excess, 0.0));
-    strip.values[2].push_back(-excess);
+    verdict.push_back(static_cast<double>(excess > 0.0 ? Verdict::unstable : Verdict::stable));
+    growth.push_back(std::max(excess, 0.0));
+    margin.push_back(-excess);
   }
+  OwnStrip strip{0, ny, nx};
+  for (auto* layer : {&verdict, &growth, &margin}) strip.add(std::move(*layer));
   return strip;
 }
 

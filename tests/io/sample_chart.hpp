@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/own_strip.hpp"
 #include "strutt/io/chart_file.hpp"
 
 /// A chart whose cells tell where they belong.
@@ -36,13 +37,14 @@ inline double cell(Layer layer, std::size_t j, std::size_t i) {
   return std::sqrt(static_cast<double>(2 + static_cast<int>(layer) + 10 * i + 1000 * j));
 }
 
-inline ChartStrip strip_of(const ChartDescription& d, std::size_t first, std::size_t rows) {
-  ChartStrip strip{first, rows, d.request.x.points, {}};
+inline OwnStrip strip_of(const ChartDescription& d, std::size_t first, std::size_t rows) {
+  OwnStrip strip{first, rows, d.request.x.points};
   for (const Layer layer : d.request.layers) {
-    auto& values = strip.values.emplace_back();
+    std::vector<double> values;
     for (std::size_t j = first; j < first + rows; ++j) {
       for (std::size_t i = 0; i < strip.columns; ++i) values.push_back(cell(layer, j, i));
     }
+    strip.add(std::move(values));
   }
   return strip;
 }

@@ -4,6 +4,7 @@
 // is the exact input. The scatter comes from a fixed seed of a generator the standard pins down.
 #include "common.hpp"
 #include <array>
+#include <cstdint>
 #include <charconv>
 #include <cmath>
 #include <iostream>
@@ -263,6 +264,27 @@ void long_motion_cases(std::ostream& out) {
     }
 }
 
+// Random cells of charts of kBoxPoints x kBoxPoints points, by the formula for their axes (src/chart/axis.cpp).
+constexpr int kBoxPoints = 2048, kBoxCells = 2000;
+void box_cases(std::ostream& out, std::uint64_t seed, const std::array<double, 2>& x, const std::array<double, 2>& y) {
+    std::mt19937_64 cells(seed);
+    const auto value = [](const std::array<double, 2>& ends, std::uint64_t place) {
+        if (place == 0) return ends[0];
+        if (place == kBoxPoints - 1) return ends[1];
+        return std::lerp(ends[0], ends[1], double(place) / double(kBoxPoints - 1));
+    };
+    for (int k = 0; k < kBoxCells; ++k) {
+        const std::uint64_t column = cells() >> 53, row = cells() >> 53;  // 11 bits
+        out << column << ',' << row << ',' << join({value(x, column), value(y, row)});
+    }
+}
+void mathieu_box_cases(std::ostream& out) { box_cases(out, 1831, {-50, 200}, {0, 200}); }
+// The rod of 1 m: omega/alpha in [0.1, 50], amplitude/length in [0, 0.5]. alpha is rounded.
+void pendulum_box_cases(std::ostream& out) {
+    const double alpha = std::sqrt(1.5 * 9.81);
+    box_cases(out, 1868, {0.1 * alpha, 50 * alpha}, {0, 0.5});
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -279,4 +301,6 @@ int main(int argc, char** argv) {
     write("motion", motion_cases);
     write("characteristic", characteristic_cases);
     write("long_motion", long_motion_cases);
+    write("mathieu_box", mathieu_box_cases);
+    write("pendulum_box", pendulum_box_cases);
 }

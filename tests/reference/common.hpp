@@ -86,6 +86,12 @@ inline Equation pendulum(const Row& row) {  // about,length,gravity,amplitude,fr
     return {1, 2 * pi() / frequency, v[5], {scalar(stiffness), scalar(swing * sin(phase))},
             {scalar(0), scalar(swing * cos(phase))}};
 }
+inline Equation mathieu_box(const Row& row) {  // column,row,delta,epsilon
+    return mathieu({"", row[2], row[3], "0"});
+}
+inline Equation pendulum_box(const Row& row) {  // column,row,frequency,amplitude
+    return pendulum({"hanging", "1", "9.81", row[3], row[2], "0", "0"});
+}
 inline Equation linear4(const Row& row) {  // c,k1,k2,k12,p11,p12,p22
     const auto v = inputs(row, 0);
     return {2, 2 * pi(), v[0], {Matrix{{v[1], v[3]}, {v[3], v[2]}}, Matrix{{v[4], v[5]}, {v[5], v[6]}}},
@@ -142,6 +148,9 @@ inline std::vector<Real> record(const Matrix& m, const Real& damping, const Real
     values.push_back(1 - abs(exp(half) * trace) / (2 * cosh(half)));
     return values;
 }
+
+// Of a record, the trace alone.
+inline std::vector<Real> trace_of(const std::vector<Real>& record) { return {record[4]}; }
 
 // Reads FOLDER/KIND.in, writes FOLDER/KIND.METHOD: one line of 70-digit numbers per case,
 // or "-" where the method does not apply (an empty answer).

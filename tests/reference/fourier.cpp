@@ -1,5 +1,5 @@
 // Method 2a: Fourier-Floquet for one harmonic, closed form for constant pieces.
-// Usage: fourier FOLDER
+// Usage: fourier FOLDER [KIND]
 //
 // In s = w t the undamped equation is y'' + (delta + epsilon cos s) y = 0 and has a solution
 // y = sum_k c_k exp(i (nu + k) s), where (delta - (nu + k)^2) c_k + epsilon/2 (c_{k-1} + c_{k+1}) = 0.
@@ -163,10 +163,15 @@ std::vector<Real> square_wave(const Square& s) {
 
 int main(int argc, char** argv) try {
     const std::string folder = argc > 1 ? argv[1] : ".";
-    const auto run = [&](const char* kind, const auto& solve) { answer(folder, kind, "fourier", solve); };
+    const std::string only = argc > 2 ? argv[2] : "";
+    const auto run = [&](const std::string& kind, const auto& solve) {
+        if (only.empty() || only == kind) answer(folder, kind, "fourier", solve);
+    };
     run("mathieu", [](const Row& row) { return monodromy(mathieu(row)); });
     run("hill", [](const Row& row) { return monodromy(hill(row)); });
     run("pendulum", [](const Row& row) { return monodromy(pendulum(row)); });
+    run("mathieu_box", [](const Row& row) { return trace_of(monodromy(mathieu_box(row))); });
+    run("pendulum_box", [](const Row& row) { return trace_of(monodromy(pendulum_box(row))); });
     run("square", [](const Row& row) { return square_wave(square(row)); });
 } catch (const std::exception& error) {
     std::cerr << "fourier: " << error.what() << '\n';

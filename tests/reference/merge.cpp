@@ -1,4 +1,4 @@
-// Compares what the methods found and writes the CSV files. Usage: merge WORK TARGET
+// Compares what the methods found and writes the CSV files. Usage: merge WORK TARGET [KIND]
 //
 // Every case needs at least two answers and all of them have to agree. Nothing is written
 // unless every case of every kind passes.
@@ -42,7 +42,11 @@ const std::vector<Kind>& kinds() {
         {"long_motion", "the equation of motion.csv; s is the largest |entry| of "
                         "d(phi, phi'/alpha)/d(phi0, phi0'/alpha), at least 1",
          "length,gravity,amplitude,frequency,damping,angle0,velocity0,t,angle,velocity,s", 3, nonlinear},
-        {"characteristic", "x'' + (value - 2 q cos 2t) x = 0: a_n(q), b_n(q)", "kind,order,q,value", 1, linear, 25}};
+        {"characteristic", "x'' + (value - 2 q cos 2t) x = 0: a_n(q), b_n(q)", "kind,order,q,value", 1, linear, 25},
+        {"mathieu_box", "cells of a chart of x'' + (delta + epsilon cos t) x = 0, 2048 x 2048 points",
+         "column,row,delta,epsilon,trace", 1, linear, 25},
+        {"pendulum_box", "cells of a chart of the hanging rod (pendulum.csv), length 1, gravity 9.81, phase and damping 0, "
+                         "2048 x 2048 points", "column,row,frequency,amplitude,trace", 1, linear, 25}};
     return list;
 }
 
@@ -114,9 +118,11 @@ Outcome compare(const Kind& kind, const std::string& work) {
 
 int main(int argc, char** argv) try {
     const std::string work = argc > 1 ? argv[1] : ".", target = argc > 2 ? argv[2] : ".";
-    std::vector<std::string> files;
+    const std::string only = argc > 3 ? argv[3] : "";
+    std::vector<std::pair<std::string, std::string>> files;
     bool agree = true;
     for (const Kind& kind : kinds()) {
+        if (!only.empty() && only != kind.name) continue;
         const Outcome out = compare(kind, work);
         agree = agree && out.agree;
         std::ostringstream head;
@@ -128,12 +134,12 @@ int main(int argc, char** argv) try {
         head << " of " << out.rows << ".\n# Largest difference between methods / max(1, largest result of the row): " << digits(out.worst, 2) << ".\n";
         std::cout << kind.name << ": " << out.rows << " rows, largest difference " << digits(out.worst, 2)
                   << ", of a single number " << digits(out.worst_single, 2) << '\n';
-        files.push_back(head.str() + kind.columns + "\n" + out.text);
+        files.emplace_back(kind.name, head.str() + kind.columns + "\n" + out.text);
     }
     if (!agree) throw std::runtime_error("the methods do not agree; nothing written");
-    for (size_t i = 0; i < files.size(); ++i) {
-        std::ofstream out(target + "/" + kinds()[i].name + ".csv");
-        if (!(out << files[i]).flush()) throw std::runtime_error("cannot write " + kinds()[i].name + ".csv");
+    for (const auto& [name, text] : files) {
+        std::ofstream out(target + "/" + name + ".csv");
+        if (!(out << text).flush()) throw std::runtime_error("cannot write " + name + ".csv");
     }
 } catch (const std::exception& error) {
     std::cerr << "merge: " << error.what() << '\n';

@@ -1,4 +1,4 @@
-// Method 1: Taylor series in time. Usage: taylor FOLDER
+// Method 1: Taylor series in time. Usage: taylor FOLDER [KIND]
 //
 // Each step expands the solution about the start of the step in the scaled time
 // tau = (t - start) / h. The harmonics have known coefficients there, and the equation
@@ -157,11 +157,16 @@ std::vector<Real> rod(const Motion& m) {
 
 int main(int argc, char** argv) try {
     const std::string folder = argc > 1 ? argv[1] : ".";
-    const auto run = [&](const char* kind, const auto& solve) { answer(folder, kind, "taylor", solve); };
+    const std::string only = argc > 2 ? argv[2] : "";
+    const auto run = [&](const std::string& kind, const auto& solve) {
+        if (only.empty() || only == kind) answer(folder, kind, "taylor", solve);
+    };
     run("mathieu", [](const Row& row) { return monodromy(mathieu(row)); });
     run("hill", [](const Row& row) { return monodromy(hill(row)); });
     run("pendulum", [](const Row& row) { return monodromy(pendulum(row)); });
     run("linear4", [](const Row& row) { return monodromy(linear4(row)); });
+    run("mathieu_box", [](const Row& row) { return trace_of(monodromy(mathieu_box(row))); });
+    run("pendulum_box", [](const Row& row) { return trace_of(monodromy(pendulum_box(row))); });
     run("square", [](const Row& row) { return square_wave(square(row)); });
     run("motion", [](const Row& row) { return rod(motion(row)); });
     run("long_motion", [](const Row& row) { return with_sensitivity(motion(row), rod); });

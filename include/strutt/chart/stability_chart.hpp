@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,10 +74,10 @@ struct ChartStrip {
   std::size_t first_row = 0;
   std::size_t rows = 0;
   std::size_t columns = 0;
-  std::vector<std::vector<double>> values;  ///< one per requested layer, in the order of the request
+  std::vector<std::span<double>> values;  ///< one per requested layer, in the order of the request
 };
 
-/// Receives the strips in order of rows, on the calling thread. The strip is reused afterwards.
+/// Receives the strips in order of rows, on the calling thread. What `values` show is written over afterwards.
 using StripSink = std::function<void(const ChartStrip&)>;
 
 /// Cells done so far of all, from the calling thread, a few times a second.
@@ -99,5 +100,10 @@ struct ChartSummary {
 /// Throws what plan_chart throws; exceptions of the sinks pass through.
 ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, const StripSink& sink,
                            const ProgressSink& progress = {});
+
+/// The same straight into arrays of the caller, one per layer in the order of the request, each of ny rows of nx values.
+/// Throws InvalidInput besides if they are not.
+ChartSummary compute_chart(const Scene& scene, const ChartRequest& request,
+                           std::span<const std::span<double>> arrays, const ProgressSink& progress = {});
 
 }  // namespace strutt

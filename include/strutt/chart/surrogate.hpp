@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,15 @@ struct SurrogateGradient {
   double kappa = 1.0;
 };
 
+/// What is interpolated at many points, in the state (y, y'/kappa) and the unit 2^exponent of the box that
+/// each lies in. |true - value| is at most the box's `error` and the rounding of the sum.
+struct SurrogateEntries {
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> box;  ///< index into boxes(); kNone where there is no surrogate
+  std::vector<double>
+      values;  ///< entry f, row by row, of point p at [f * points + p]; NaN where there is none
+};
+
 /// A Chebyshev surrogate of propagators over two parameters.
 ///
 /// Propagators are analytic in the parameters, so their interpolants in Chebyshev points converge
@@ -100,7 +110,16 @@ class Surrogate {
   /// 0: trace, margin, growth and winding are the same. `error` is that of `matrix`; outcome
   /// tolerance_not_reached where it is above the tolerance.
   std::optional<Monodromy> monodromy(double x, double y) const;
-  std::optional<HillMonodromy> hill_monodromy(double x, double y) const;  ///< nothing if it is no Hill equation
+  std::optional<HillMonodromy> hill_monodromy(double x,
+                                              double y) const;  ///< nothing if it is no Hill equation
+
+  /// The same at many points (x, y), several to a processor register: the bits of the calls one by one.
+  std::vector<std::optional<Monodromy>> monodromies(std::span<const std::array<double, 2>> points) const;
+  std::vector<std::optional<HillMonodromy>> hill_monodromies(
+      std::span<const std::array<double, 2>> points) const;
+
+  /// What is interpolated, alone.
+  SurrogateEntries entries(std::span<const std::array<double, 2>> points) const;
 
   /// Nothing where there is no surrogate. With half-period factors the discriminant and its gradient are
   /// D = 2 (u1 u2' + u1' u2).
@@ -117,12 +136,7 @@ class Surrogate {
   static double coordinate(const Axis& axis, double value);
 
  private:
-  struct Point {
-    const SurrogateBox* box;
-    LinearModel model;
-  };
-  std::optional<Point> point_at(double x, double y) const;
-  const SurrogateBox* box_at(double x, double y) const;
+  std::size_t box_at(double x, double y) const;  // kNone: no surrogate
 
   SurrogateData data_;
   bool cancelled_ = false;

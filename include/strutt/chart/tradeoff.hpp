@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,16 @@
 
 namespace strutt {
 
+/// The axes of a chart.
+struct ChartBox {
+  Axis x, y;
+};
+
 /// Where a scene is measured: values of parameters, one row a point.
 struct TradeoffPoints {
   std::vector<std::string> parameters;
   std::vector<std::vector<double>> rows;
+  std::optional<ChartBox> box = std::nullopt;  ///< that the rows are taken from; only with one is the surrogate measured
 };
 
 /// The scene as it stands, one point.
@@ -81,7 +88,10 @@ double expected_seconds(const Scene& scene, const TradeoffRequest& completed_req
 /// once, verdict, growth, margin and error bound of each, without winding and matrix; where that takes less
 /// than request.seconds, the points are repeated up to 256, as many as a chart hands over. All rows are timed
 /// in turn, `repeats` times over, so that a slow spell of the machine meets all of them. The front of Pareto
-/// is that of the methods; `automatic`, which is one of them, stays out. Throws InvalidInput for a bad
+/// is that of the methods; `automatic`, which is one of them, stays out. `surrogate` is timed as a chart over
+/// the box with verdict, growth and margin, building included, for each of its cells; its right-hand sides are
+/// those of nodes and checks for each cell, and points that it does not answer for are those of `automatic`.
+/// Where it is seen from another phase than 0 its true error is that of the trace. Throws InvalidInput for a bad
 /// request and where no point makes an equation, NumericalFailure where the reference fails.
 Tradeoff measure_tradeoff(const Scene& scene, const TradeoffRequest& request,
                           const TradeoffProgress& progress = {});
