@@ -8,10 +8,9 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kChunk =
-    8192;  // lanes that are sorted at a time: they stay in the second level of the cache,
-constexpr std::size_t kGroup =
-    512;  // and those that are integrated at a time, with their results, in the first
+// Lanes that are sorted at a time, which stay in the second level of the cache, and lanes that are integrated
+// at a time, which stay in the first with their results.
+constexpr std::size_t kChunk = 8192, kGroup = 512;
 constexpr long kMostStoredTerms = 1L << 22;  // 32 MB of tables
 
 }  // namespace
@@ -22,47 +21,54 @@ struct HillFamily::Workspace {
   detail::SeriesPlanner planner;
   std::vector<std::unique_ptr<HillSeries>> series;  // one per plan
   long stored_terms = 0;
+  // Of a chunk: class, plan (one more for those without) and tail of each lane,
   std::vector<std::int64_t> classes;
-  // Of a chunk, sorted by plan: places in the batch, tails, means, and weights, kChunk of each function.
-  // Lanes of plan i are begin[i] ... begin[i + 1] - 1, in order; those without a plan come last.
+  std::vector<std::size_t> plan;
+  std::vector<double> tail;
+  // and sorted by plan: places in the batch, tails, means, and weights, function by function. Lanes of plan i
+  // are begin[i] ... begin[i + 1] - 1, in order; those without a plan come last.
   std::vector<std::uint32_t> lanes, begin;
   std::vector<double> tails, mean, weights;
   HillPropagators result;
 
   Workspace(std::vector<PeriodicFunction> functions, double start, double end, double tolerance)
-      : basis(std::move(functions)),
-        from(start),
-        to(end),
-        planner(basis, start, end, tolerance),
-        lanes(kChunk),
-        tails(kChunk),
-        mean(kChunk),
-        weights(kChunk * basis.size()) {}
+      : basis(std::move(functions)), from(start), to(end), planner(basis, start, end, tolerance) {}
+
+  void choose_plans(const HillBatch& batch, std::size_t first, std::size_t count) {
+    classes.resize(count);
+    plan.resize(count);
+    tail.resize(count);
+    planner.classify(batch, first, classes);
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    bool all = true;
+    for (std::size_t l = 0; l < count; ++l) {
+      const auto& choice = planner.choice(classes[l]);
+      plan[l] = choice.plan < 0 ? none : static_cast<std::size_t>(choice.plan);
+      tail[l] = choice.tail;
+      all = all && choice.plan >= 0;
+    }
+    series.resize(planner.plans().size());
+    if (!all) std::ranges::replace(plan, none, series.size());
+  }
 
   /// Counting sort.
   void sort_by_plan(const HillBatch& batch, std::size_t first, std::size_t count) {
-    classes.resize(count);
-    planner.classify(batch, first, classes);
-    for (const auto number : classes) planner.choice(number);
-    series.resize(planner.plans().size());
+    choose_plans(batch, first, count);
     begin.assign(series.size() + 2, 0);
-    for (const auto number : classes) ++begin[place_of(number) + 1];
+    for (const std::size_t p : plan) ++begin[p + 1];
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    lanes.resize(count);
+    tails.resize(count);
+    mean.resize(count);
+    weights.resize(count * basis.size());
     auto next = begin;
     for (std::size_t l = 0; l < count; ++l) {
-      const std::size_t place = next[place_of(classes[l])]++;
+      const std::size_t place = next[plan[l]]++;
       lanes[place] = static_cast<std::uint32_t>(first + l);
-      tails[place] = planner.choice(classes[l]).tail;
+      tails[place] = tail[l];
       mean[place] = batch.mean[first + l];
-      for (std::size_t f = 0; f < basis.size(); ++f)
-        weights[f * kChunk + place] = batch.weights[f][first + l];
+      for (std::size_t f = 0; f < basis.size(); ++f) weights[f * count + place] = batch.weights[f][first + l];
     }
-  }
-
-  /// Of the plan of a class among all groups.
-  std::size_t place_of(std::int64_t number) {
-    const int plan = planner.choice(number).plan;
-    return plan < 0 ? series.size() : static_cast<std::size_t>(plan);
   }
 
   const HillSeries& series_of(std::size_t number) {
@@ -89,7 +95,7 @@ struct HillFamily::Workspace {
   HillGroup group(std::size_t first, std::size_t count) const {
     HillBatch batch{std::span(mean).subspan(first, count), {}};
     for (std::size_t f = 0; f < basis.size(); ++f)
-      batch.weights.push_back(std::span(weights).subspan(f * kChunk + first, count));
+      batch.weights.push_back(std::span(weights).subspan(f * mean.size() + first, count));
     return {std::span(lanes).subspan(first, count),
             std::move(batch),
             {},

@@ -19,9 +19,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoundingOnce = 2.0;    // units: what the sums and their coefficients cost,
 constexpr double kRoundingGrowth = 0.3;  // and for each g^2 more
 constexpr double kProductRounding = 3.0 * kUnit;
-constexpr double kSecondOrder = 1.01;                  // room for products of errors
-constexpr int kRescaling = 4;                          // steps, each of which grows by at most cosh(8)^2
-constexpr std::size_t kRegisters = 4, kFewNodes = 16;  // their steps stay in the first level of the cache
+constexpr double kSecondOrder = 1.01;                 // room for products of errors
+constexpr int kRescaling = 4;                         // steps, each of which grows by at most cosh(8)^2
+constexpr std::size_t kRegisters = 8, kFewNodes = 8;  // their steps stay in the first level of the cache
 
 /// Of a_k in the relation between values, and in that between slopes.
 template <int K>
