@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -167,6 +168,23 @@ TEST_CASE("every entry is within its bound, near and far from convergence", "[in
       }
     }
   }
+}
+
+TEST_CASE("a tail grows with the numbers, falls with the terms and knows no signs", "[integrate][series]") {
+  const std::vector<PeriodicFunction> basis{harmonic(0.0, 1.0, 1), harmonic(0.0, 1.0, 2)};
+  const std::vector<double> weights{1.5, -0.5}, larger{1.5, 0.6}, opposite{-1.5, 0.5};
+  double before = std::numeric_limits<double>::infinity();
+  for (const int terms : {6, 8, 10, 12}) {
+    const HillSeries series({2, terms}, basis, 0.0, kPi);
+    const double tail = series.tail(3.0, weights);
+    CHECK(tail > 0.0);
+    CHECK(tail < 0.1 * before);
+    CHECK(series.tail(3.1, weights) > tail);
+    CHECK(series.tail(3.0, larger) > tail);
+    CHECK(series.tail(-3.0, opposite) == tail);
+    before = tail;
+  }
+  CHECK(std::isinf(HillSeries({1, 20}, basis, 0.0, kPi).tail(1e5, weights)));
 }
 
 TEST_CASE("the determinant of a propagator is 1 within the bounds", "[integrate][series][law][simd]") {
