@@ -10,8 +10,9 @@ namespace strutt::detail {
 struct DiscriminantArrays {
   const HillPropagators* half;
   const double* mean;
-  const double* bound;       // of |W|
-  double coefficient_error;  // relative, of W
+  const double* const* weights;  // of functions that are at most 1
+  int functions;
+  double coefficient_error;  // relative, of W, times the length of the interval
   double *value, *error;     // see HillDiscriminants::compute
   std::size_t lanes;
 };

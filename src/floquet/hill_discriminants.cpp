@@ -48,43 +48,57 @@ std::vector<PeriodicFunction> cosines(const std::vector<int>& orders) {
 
 }  // namespace
 
-HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance) : tolerance_(tolerance) {
+HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance)
+    : tolerance_(tolerance), basis_(cosines(orders)) {
   MonodromyOptions{.tolerance = tolerance}.validate();
-  const auto basis = cosines(orders);
   const int highest = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
   coefficient_error_ = HillSeries::evaluation_error(highest);
   const auto [first, lowest] = series_ladder(tolerance);
-  for (double local = first;; local = std::max(kLadderStep * local, lowest)) {
-    families_.emplace_back(basis, 0.0, pi, local);
-    if (local <= lowest) break;
-  }
+  local_tolerances_.push_back(first);
+  while (local_tolerances_.back() > lowest)
+    local_tolerances_.push_back(std::max(kLadderStep * local_tolerances_.back(), lowest));
 }
 
-void HillDiscriminants::attempt(HillFamily& family, const HillBatch& batch, std::span<double> value,
-                                std::span<double> error) {
-  std::vector<double> bound;
-  family.propagate(batch, [&](const HillGroup& group) {
-    const std::size_t lanes = group.lanes.size();
-    value_.assign(lanes, std::numeric_limits<double>::quiet_NaN());
-    error_.assign(lanes, kInfinity);
-    if (group.plan.steps > 0) {
-      bound.resize(lanes);
-      for (std::size_t l = 0; l < lanes; ++l) bound[l] = std::abs(group.batch.mean[l]);
-      for (const auto& w : group.batch.weights)
-        for (std::size_t l = 0; l < lanes; ++l) bound[l] += std::abs(w[l]);
-      detail::combine({.half = &group.result,
-                       .mean = group.batch.mean.data(),
-                       .bound = bound.data(),
-                       .coefficient_error = coefficient_error_,
-                       .value = value_.data(),
-                       .error = error_.data(),
-                       .lanes = lanes});
-    }
-    for (std::size_t l = 0; l < lanes; ++l) {
-      value[group.lanes[l]] = value_[l];
-      error[group.lanes[l]] = error_[l];
+HillFamily& HillDiscriminants::family(std::size_t rung) {
+  while (families_.size() <= rung)
+    families_.emplace_back(basis_, 0.0, pi, local_tolerances_[families_.size()]);
+  return families_[rung];
+}
+
+void HillDiscriminants::combine(const HillGroup& group) {
+  const std::size_t lanes = group.lanes.size();
+  value_.resize(std::max(value_.size(), lanes));
+  error_.resize(value_.size());
+  if (group.plan.steps == 0) {
+    std::fill_n(value_.begin(), lanes, std::numeric_limits<double>::quiet_NaN());
+    std::fill_n(error_.begin(), lanes, kInfinity);
+    return;
+  }
+  std::vector<const double*> weights;
+  for (const auto& w : group.batch.weights) weights.push_back(w.data());
+  detail::combine({.half = &group.result,
+                   .mean = group.batch.mean.data(),
+                   .weights = weights.data(),
+                   .functions = static_cast<int>(basis_.size()),
+                   .coefficient_error = pi * coefficient_error_,
+                   .value = value_.data(),
+                   .error = error_.data(),
+                   .lanes = lanes});
+}
+
+std::vector<std::size_t> HillDiscriminants::attempt(std::size_t rung, const HillBatch& batch,
+                                                    std::span<double> value, std::span<double> error) {
+  std::vector<std::size_t> missed;
+  family(rung).propagate(batch, [&](const HillGroup& group) {
+    combine(group);
+    for (std::size_t l = 0; l < group.lanes.size(); ++l) {
+      const std::size_t lane = group.lanes[l];
+      value[lane] = value_[l];
+      error[lane] = error_[l];
+      if (error_[l] > tolerance_ && error_[l] < kInfinity) missed.push_back(lane);
     }
   });
+  return missed;
 }
 
 void HillDiscriminants::compute(const HillBatch& batch, std::span<double> value, std::span<double> error) {
@@ -92,24 +106,19 @@ void HillDiscriminants::compute(const HillBatch& batch, std::span<double> value,
   const std::size_t lanes = batch.mean.size();
   if (value.size() != lanes || error.size() != lanes)
     throw InvalidInput("value, error", std::to_string(value.size()), "as long as the means");
-  attempt(families_.front(), batch, value, error);
-  std::vector<std::size_t> missed;
-  for (std::size_t rung = 1; rung < families_.size(); ++rung) {
-    missed.clear();
-    for (std::size_t l = 0; l < lanes; ++l)
-      if (error[l] > tolerance_ && std::isfinite(error[l])) missed.push_back(l);
-    if (missed.empty()) break;
+  auto missed = attempt(0, batch, value, error);
+  for (std::size_t rung = 1; rung < local_tolerances_.size() && !missed.empty(); ++rung) {
     const Selection again(batch, missed);
     std::vector<double> values(missed.size()), errors(missed.size());
-    attempt(families_[rung], again.batch(), values, errors);
+    auto still = attempt(rung, again.batch(), values, errors);
     for (std::size_t i = 0; i < missed.size(); ++i) {
       if (!(errors[i] < error[missed[i]])) continue;
       value[missed[i]] = values[i];
       error[missed[i]] = errors[i];
     }
+    for (auto& place : still) place = missed[place];
+    missed = std::move(still);
   }
-  for (std::size_t l = 0; l < lanes; ++l)
-    if (std::isnan(error[l]) || std::isnan(value[l])) error[l] = kInfinity;
 }
 
 }  // namespace strutt

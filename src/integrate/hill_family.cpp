@@ -8,7 +8,9 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kChunk = 2048;  // lanes: what belongs to them stays in the second level of the cache
+// Lanes that are sorted at a time, which stay in the second level of the cache, and lanes that are integrated
+// at a time, which stay in the first with their results.
+constexpr std::size_t kChunk = 8192, kGroup = 512;
 constexpr long kMostStoredTerms = 1L << 22;  // 32 MB of tables
 
 }  // namespace
@@ -19,37 +21,62 @@ struct HillFamily::Workspace {
   detail::SeriesPlanner planner;
   std::vector<std::unique_ptr<HillSeries>> series;  // one per plan
   long stored_terms = 0;
-  std::vector<std::int64_t> plan;
-  std::vector<std::uint32_t> sorted, begin;
-  std::vector<double> mean, weights;
+  // Of a chunk: class, plan (one more for those without) and tail of each lane,
+  std::vector<std::int64_t> classes;
+  std::vector<std::size_t> plan;
+  std::vector<double> tail;
+  // and sorted by plan: places in the batch, tails, means, and weights, function by function. Lanes of plan i
+  // are begin[i] ... begin[i + 1] - 1, in order; those without a plan come last.
+  std::vector<std::uint32_t> lanes, begin;
+  std::vector<double> tails, mean, weights;
   HillPropagators result;
 
   Workspace(std::vector<PeriodicFunction> functions, double start, double end, double tolerance)
-      : basis(std::move(functions)),
-        from(start),
-        to(end),
-        planner(basis, end - start, tolerance),
-        series(planner.plans().size()) {}
+      : basis(std::move(functions)), from(start), to(end), planner(basis, start, end, tolerance) {}
 
-  /// Counting sort: lanes of plan i are sorted[begin[i]] ... sorted[begin[i + 1] - 1], in order; those
-  /// without a plan come last.
-  void sort_by_plan(const HillBatch& batch, std::size_t first, std::size_t count) {
+  void choose_plans(const HillBatch& batch, std::size_t first, std::size_t count) {
+    classes.resize(count);
     plan.resize(count);
-    planner.choose(batch, first, plan);
+    tail.resize(count);
+    planner.classify(batch, first, classes);
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    bool all = true;
+    for (std::size_t l = 0; l < count; ++l) {
+      const auto& choice = planner.choice(classes[l]);
+      plan[l] = choice.plan < 0 ? none : static_cast<std::size_t>(choice.plan);
+      tail[l] = choice.tail;
+      all = all && choice.plan >= 0;
+    }
+    series.resize(planner.plans().size());
+    if (!all) std::ranges::replace(plan, none, series.size());
+  }
+
+  /// Counting sort.
+  void sort_by_plan(const HillBatch& batch, std::size_t first, std::size_t count) {
+    choose_plans(batch, first, count);
     begin.assign(series.size() + 2, 0);
-    for (const auto p : plan) ++begin[static_cast<std::size_t>(p) + 1];
+    for (const std::size_t p : plan) ++begin[p + 1];
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    sorted.resize(count);
-    auto place = begin;
-    for (std::size_t l = 0; l < count; ++l)
-      sorted[place[static_cast<std::size_t>(plan[l])]++] = static_cast<std::uint32_t>(first + l);
+    lanes.resize(count);
+    tails.resize(count);
+    mean.resize(count);
+    weights.resize(count * basis.size());
+    auto next = begin;
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::size_t place = next[plan[l]]++;
+      lanes[place] = static_cast<std::uint32_t>(first + l);
+      tails[place] = tail[l];
+      mean[place] = batch.mean[first + l];
+      for (std::size_t f = 0; f < basis.size(); ++f) weights[f * count + place] = batch.weights[f][first + l];
+    }
   }
 
   const HillSeries& series_of(std::size_t number) {
     auto& made = series[number];
     if (made) return *made;
     const auto& chosen = planner.plans()[number];
-    const long terms = static_cast<long>(chosen.steps) * chosen.terms * static_cast<long>(basis.size() + 1);
+    const long terms =
+        static_cast<long>(chosen.steps + 1) * chosen.terms * static_cast<long>(basis.size() + 1);
     if (stored_terms + terms > kMostStoredTerms) {
       for (auto& old : series) old.reset();
       stored_terms = 0;
@@ -59,18 +86,21 @@ struct HillFamily::Workspace {
     return *made;
   }
 
-  HillBatch gathered(const HillBatch& batch, std::span<const std::uint32_t> lanes) {
-    const std::size_t count = lanes.size();
-    mean.resize(count);
-    weights.resize(count * basis.size());
-    for (std::size_t l = 0; l < count; ++l) mean[l] = batch.mean[lanes[l]];
-    HillBatch own{mean, {}};
-    for (std::size_t j = 0; j < basis.size(); ++j) {
-      double* const to_weights = weights.data() + j * count;
-      for (std::size_t l = 0; l < count; ++l) to_weights[l] = batch.weights[j][lanes[l]];
-      own.weights.emplace_back(to_weights, count);
-    }
-    return own;
+  void integrate(std::size_t number, HillGroup& group) {
+    group.plan = planner.plans()[number];
+    series_of(number).propagate(group.batch, group.tails, result);
+  }
+
+  /// Lanes that were sorted to the places from `first` on.
+  HillGroup group(std::size_t first, std::size_t count) const {
+    HillBatch batch{std::span(mean).subspan(first, count), {}};
+    for (std::size_t f = 0; f < basis.size(); ++f)
+      batch.weights.push_back(std::span(weights).subspan(f * mean.size() + first, count));
+    return {std::span(lanes).subspan(first, count),
+            std::move(batch),
+            {},
+            std::span(tails).subspan(first, count),
+            result};
   }
 };
 
@@ -86,19 +116,14 @@ HillFamily& HillFamily::operator=(HillFamily&&) noexcept = default;
 void HillFamily::propagate(const HillBatch& batch, const std::function<void(const HillGroup&)>& receive) {
   auto& own = *workspace_;
   batch.validate(own.basis.size());
-  const std::size_t plans = own.series.size();
   for (std::size_t first = 0; first < batch.mean.size(); first += kChunk) {
     own.sort_by_plan(batch, first, std::min(kChunk, batch.mean.size() - first));
-    for (std::size_t plan = 0; plan <= plans; ++plan) {
-      const std::size_t begin = own.begin[plan], end = own.begin[plan + 1];
-      if (begin == end) continue;
-      const auto lanes = std::span(own.sorted).subspan(begin, end - begin);
-      HillGroup group{.lanes = lanes, .batch = own.gathered(batch, lanes), .plan = {}, .result = own.result};
-      if (plan < plans) {
-        group.plan = own.planner.plans()[plan];
-        own.series_of(plan).propagate(group.batch, own.result);
+    for (std::size_t plan = 0; plan + 1 < own.begin.size(); ++plan) {
+      for (std::size_t place = own.begin[plan]; place < own.begin[plan + 1]; place += kGroup) {
+        auto group = own.group(place, std::min<std::size_t>(kGroup, own.begin[plan + 1] - place));
+        if (plan < own.series.size()) own.integrate(plan, group);
+        receive(group);
       }
-      receive(group);
     }
   }
 }

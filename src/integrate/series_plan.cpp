@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
-#include "integrate/series_kernel.hpp"
+#include "integrate/darboux.hpp"
 
 namespace strutt::detail {
 namespace {
 
-constexpr std::array kTerms{8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 32, 36, 40, 44, 48};
-constexpr std::array kRatios{1.3, 1.6, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 13.0, 17.0, 22.0};
-// Cauchy's inequality, and what becomes of an error on its way, are by so much too careful; found by trial.
-// What was reached is known from the terms themselves.
-constexpr double kCare = 300.0;
-constexpr double kThinning = 1.06;     // a plan is left out where another serves as much for so much more
-constexpr double kLargestWave = 40.0;  // cosh of more is beyond any use
+constexpr double kTailShare = 0.2;     // of the tolerance: what becomes of a tail on its way, found by trial
+constexpr double kGreatestStep = 7.0;  // r sqrt|W|; more is never cheaper
+constexpr double kSmallestStep = 1.2;  // less does not reduce rounding much
+constexpr int kMostSteps = 16;         // whose nodes are looked at one by one
+constexpr double kPatience = 1.25;     // costs rise again once they are so much above the least
 
 std::vector<int> step_ladder() {
   std::vector<int> result{1, 2, 3, 4, 5, 6, 7};
@@ -27,96 +26,173 @@ std::vector<int> step_ladder() {
   return result;
 }
 
-/// The largest g = r sqrt|W| whose rounding, (6 + g^2) cosh(g) units a step, stays below the tolerance; at
-/// least kSmallestStep, since more steps would not help much.
-double largest_step(double tolerance, int steps) {
-  constexpr double kSmallestStep = 1.2, kGreatestStep = 4.0, kUnits = 10.0 * 0x1p-53;
-  double g = kGreatestStep;
-  while (g > kSmallestStep && (6.0 + g * g) * std::cosh(g) * kUnits * steps > tolerance) g -= 0.1;
-  return g;
+const std::vector<int>& ladder() {
+  static const std::vector<int> steps = step_ladder();
+  return steps;
 }
 
-struct Row {
-  HillSeriesPlan plan;
-  double cost = 0.0;
-  std::vector<double> shares;
-};
+/// How much of its size a function varies by the time it has left the real axis by 1.
+double variability(const PeriodicFunction& f) { return largest_within(f, 1.0) / largest_within(f, 0.0); }
 
-/// Multiply-adds a lane.
-double cost_of(const HillSeriesPlan& plan, std::size_t functions) {
-  const double terms = plan.terms;
-  return plan.steps * (terms * terms + terms * (6.0 + static_cast<double>(functions)) + 120.0);
-}
-
-bool serves_all_of(const Row& row, const Row& other) {
-  for (std::size_t i = 0; i < row.shares.size(); ++i) {
-    if (row.shares[i] > other.shares[i]) return false;
+/// kMostSeriesTerms + 1: none. `growth`: the kernel's bound of what is lost in the middle of a step, by
+/// darboux_loss.
+int fewest_terms(const SeriesMajorant& majorant, double growth, double allowed) {
+  int low = kFewestSeriesTerms, high = kMostSeriesTerms + 1;
+  while (low < high) {
+    const int middle = (low + high) / 2;
+    if (majorant.tail(middle) * (1.0 + darboux_loss(middle) * growth) <= allowed) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
   }
-  return true;
+  return low;
 }
 
 }  // namespace
 
-double largest_within(const PeriodicFunction& f, double distance) {
-  double sum = std::abs(f.mean());
-  for (const auto& h : f.harmonics()) sum += std::hypot(h.cosine, h.sine) * std::cosh(h.order * distance);
-  return sum;
+/// Operations on a register of lanes, by what they took.
+double SeriesPlanner::Rung::cost(int terms) const {
+  const double k = terms;
+  const auto [even, odd, neither] = kinds;
+  return even * (0.18 * k * k + 3.4 * k + 40.0) + odd * (0.4 * k * k + 6.3 * k + 90.0) +
+         neither * (0.85 * k * k + 7.0 * k + 90.0) + 60.0;
 }
 
-SeriesPlanner::SeriesPlanner(std::span<const PeriodicFunction> basis, double length, double tolerance)
-    : functions_(basis.size()) {
-  int highest = 0;
-  for (const auto& f : basis) highest = std::max(highest, f.highest_order());
-  std::vector<Row> rows;
-  for (const int steps : step_ladder()) {
-    const double r = 0.5 * length / steps;
-    for (const double rho : kRatios) {
-      if (highest * rho * r > kLargestWave) break;
-      std::vector<double> largest;
-      for (const auto& f : basis) largest.push_back(largest_within(f, rho * r));
-      for (const int terms : kTerms) {
-        const double rest = (1.0 - 1.0 / rho) * (1.0 - 1.0 / rho);
-        const double allowed = kCare * tolerance * std::min(r, 1.0) * rest * std::pow(rho, terms - 1) /
-                               (8.0 * terms * std::sqrt(steps));
-        if (!(allowed > 1.0)) continue;
-        const double g = std::min(std::acosh(allowed) / rho, largest_step(tolerance, steps));
-        const double limit = (g / r) * (g / r);
-        Row row{{steps, terms}, 0.0, {1.0 / limit}};
-        for (const double size : largest) row.shares.push_back(size / limit);
-        row.cost = cost_of(row.plan, functions_);
-        rows.push_back(std::move(row));
-      }
-    }
+SeriesPlanner::SeriesPlanner(std::span<const PeriodicFunction> basis, double from, double to,
+                             double tolerance)
+    : basis_(basis.begin(), basis.end()),
+      from_(from),
+      to_(to),
+      tolerance_(tolerance),
+      rungs_(ladder().size()),
+      choices_(static_cast<std::size_t>(kClassRows) << kColumnBits, Choice{.plan = kUnmade}) {
+  double most = 0.0;  // of those that share the last column
+  const int count = static_cast<int>(basis_.size());
+  for (int f = kMostColumns - 1; f < count; ++f)
+    most = std::max(most, variability(basis_[static_cast<std::size_t>(f)]));
+  for (int f = 0; f < count; ++f) {
+    const auto& function = basis_[static_cast<std::size_t>(f)];
+    column_.push_back(std::min(f, kMostColumns - 1));
+    largest_.push_back(largest_within(function, 0.0));
+    share_.push_back(f < kMostColumns - 1 ? largest_.back() : largest_.back() * variability(function) / most);
   }
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.cost < b.cost; });
-  std::vector<Row> kept;
-  for (auto& row : rows) {
-    const auto serves = [&](const Row& better) { return serves_all_of(better, row); };
-    if (std::none_of(kept.rbegin(), kept.rend(), serves)) kept.push_back(std::move(row));
-  }
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    bool needed = true;
-    for (std::size_t j = i + 1; j < kept.size() && needed && kept[j].cost <= kThinning * kept[i].cost; ++j)
-      needed = !serves_all_of(kept[j], kept[i]);
-    if (!needed) kept[i].plan.steps = 0;
-  }
-  std::erase_if(kept, [](const Row& row) { return row.plan.steps == 0; });
-  for (const auto& row : kept) {
-    plans_.push_back(row.plan);
-    shares_.insert(shares_.end(), row.shares.begin(), row.shares.end());
-  }
+  columns_ = std::min(count, kMostColumns);
 }
 
-void SeriesPlanner::choose(const HillBatch& batch, std::size_t first, std::span<std::int64_t> rows) const {
+const SeriesPlanner::Rung& SeriesPlanner::rung(std::size_t place) {
+  auto& made = rungs_[place];
+  if (made) return *made;
+  const SeriesNodes nodes(from_, to_, ladder()[place]);
+  made = Rung{.steps = ladder()[place], .radius = nodes.radius(), .growth = 1.0, .kinds = {}, .bounds = {}};
+  made->bounds.resize(static_cast<std::size_t>(columns_));
+  for (std::size_t f = 0; f < basis_.size(); ++f) {
+    made->growth = std::max(made->growth, largest_within(basis_[f], nodes.radius()) / largest_[f]);
+    const auto own = middle_bounds(nodes, basis_[f]);
+    auto& bounds = made->bounds[static_cast<std::size_t>(column_[f])];
+    for (std::size_t j = 0; j < own.size(); ++j) bounds[j] = std::max(bounds[j], own[j] / share_[f]);
+  }
+  count_kinds(*made, nodes);
+  return *made;
+}
+
+void SeriesPlanner::count_kinds(Rung& rung, const SeriesNodes& nodes) const {
+  constexpr std::size_t kTerms = 4;  // tell all
+  std::vector<double> series(basis_.size() * kTerms);
+  for (int i = 0; i < nodes.count(); ++i) {
+    if (nodes.steps() > kMostSteps && i > 0 && i < nodes.steps()) continue;
+    for (std::size_t f = 0; f < basis_.size(); ++f)
+      expand(basis_[f], nodes.phase(i), rung.radius, std::span(series).subspan(f * kTerms, kTerms));
+    ++rung.kinds[static_cast<std::size_t>(parity_of(series, kTerms))];
+  }
+  rung.kinds[static_cast<std::size_t>(Parity::neither)] +=
+      nodes.count() - rung.kinds[0] - rung.kinds[1] - rung.kinds[2];
+}
+
+SeriesPlanner::Corner SeriesPlanner::corner(std::int64_t number) const {
+  const auto row = number >> (kColumnBits * columns_);
+  const double octave = std::exp2(static_cast<double>((row + 1) / kShares) + kSmallestOctave);
+  const double unit = std::exp2(static_cast<double>(row / kShares) + kSmallestOctave) / kShares;
+  Corner result;
+  result.size = result.mean = octave * (1.0 + static_cast<double>((row + 1) % kShares) / kShares);
+  for (int c = 0; c < columns_; ++c) {
+    const auto column = (number >> (kColumnBits * (columns_ - 1 - c))) & ((1 << kColumnBits) - 1);
+    result.varying.push_back(std::min(result.size, unit * static_cast<double>(column + 1)));
+    result.mean -= unit * static_cast<double>(column);
+  }
+  result.mean = std::max(result.mean, 0.0);
+  return result;
+}
+
+double SeriesPlanner::allowed_tail(const Rung& rung, const Corner& equation) const {
+  const double phase = rung.radius * std::sqrt(equation.size);
+  return kTailShare * tolerance_ * std::min(1.0, std::max(rung.radius, phase)) / rung.steps;
+}
+
+double SeriesPlanner::growth(const Rung& rung, const Corner& equation) const {
+  const double square = rung.radius * rung.radius * equation.size * rung.growth;
+  return square * std::cosh(std::sqrt(square)) * (1.0 + 0.5 * std::max(1.0, square));
+}
+
+bool SeriesPlanner::too_much_rounding(const Rung& rung, const Corner& equation) const {
+  const double square = rung.radius * rung.radius * equation.size * rung.growth, g = std::sqrt(square);
+  return g > kSmallestStep && (6.0 + square) * std::cosh(g) * 10.0 * 0x1p-53 * rung.steps > tolerance_;
+}
+
+SeriesMajorant SeriesPlanner::majorant(const Rung& rung, const Corner& equation) const {
+  CoefficientBounds v{rung.radius * rung.radius * equation.mean};
+  for (std::size_t c = 0; c < equation.varying.size(); ++c)
+    for (std::size_t j = 0; j < v.size(); ++j) v[j] += rung.bounds[c][j] * equation.varying[c];
+  return SeriesMajorant(v);
+}
+
+SeriesPlanner::Choice SeriesPlanner::cheapest(std::int64_t number) {
+  if (number >> (kColumnBits * columns_) >= kClassRows - 1) return {};
+  const Corner equation = corner(number);
+  HillSeriesPlan best;
+  double tail = 0.0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t place = 0; place < ladder().size(); ++place) {
+    const double length = 0.5 * (to_ - from_) / ladder()[place];
+    if (length * std::sqrt(equation.size) > kGreatestStep) continue;
+    const Rung& here = rung(place);
+    if (here.cost(std::max(kFewestSeriesTerms, best.terms / 2)) >= least) break;
+    if (too_much_rounding(here, equation)) continue;
+    const auto series = majorant(here, equation);
+    const int terms = fewest_terms(series, growth(here, equation), allowed_tail(here, equation));
+    if (terms > kMostSeriesTerms) continue;
+    const double cost = here.cost(terms);
+    if (cost > kPatience * least) break;
+    if (cost >= least) continue;
+    least = cost;
+    best = {here.steps, terms};
+    tail = series.tail(terms);
+  }
+  return best.steps > 0 ? Choice{number_of(best), tail} : Choice{};
+}
+
+int SeriesPlanner::number_of(const HillSeriesPlan& plan) {
+  const auto same = [&plan](const HillSeriesPlan& other) {
+    return other.steps == plan.steps && other.terms == plan.terms;
+  };
+  const auto found = std::ranges::find_if(plans_, same);
+  const auto number = static_cast<int>(found - plans_.begin());
+  if (found == plans_.end()) plans_.push_back(plan);
+  return number;
+}
+
+void SeriesPlanner::classify(const HillBatch& batch, std::size_t first,
+                             std::span<std::int64_t> classes) const {
   std::vector<const double*> weights;
   for (const auto& w : batch.weights) weights.push_back(w.data() + first);
-  detail::choose({.shares = shares_.data(),
-                  .rows = plans_.size(),
-                  .functions = static_cast<int>(functions_),
-                  .mean = batch.mean.data() + first,
-                  .weights = weights.data(),
-                  .row = rows.data(),
-                  .lanes = rows.size()});
+  detail::classify({.functions = static_cast<int>(basis_.size()),
+                    .columns = columns_,
+                    .largest = largest_.data(),
+                    .share = share_.data(),
+                    .column = column_.data(),
+                    .mean = batch.mean.data() + first,
+                    .weights = weights.data(),
+                    .number = classes.data(),
+                    .lanes = classes.size()});
 }
 
 }  // namespace strutt::detail

@@ -1,35 +1,81 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
+#include "integrate/series_majorant.hpp"
 #include "strutt/integrate/hill_series.hpp"
 
 namespace strutt::detail {
 
-/// max |f| within `distance` of the real axis, bounded harmonic by harmonic.
-double largest_within(const PeriodicFunction& f, double distance);
-
-/// Plans for equations Y'' + W Y = 0 with W = mean + sum_f weight_f f over an interval. With r half a step
-/// and Omega >= |W| within rho r of the middle of a step, Cauchy's inequality bounds the terms left out,
-///   sum_(k >= K) k |a_k| <= K rho^(1-K) cosh(rho r sqrt Omega)/(1 - 1/rho)^2,
-/// so that (steps, K) serves all W with Omega below a limit. Rows of such pairs, each with its rho, by rising
-/// cost; |mean| + sum_f |weight_f| max|f| stands for Omega.
+/// Plans for equations Y'' + W Y = 0 with W = mean + sum_f weight_f f over an interval. The equations are
+/// sorted into classes by the size of W and by how much of it varies (SeriesClasses); a class has the
+/// cheapest plan whose tail, at its largest equation, is small enough. It is looked for when the first
+/// equation of the class comes.
 class SeriesPlanner {
  public:
   /// For a truncation below about `tolerance` in the propagator of the whole interval, relative to its size.
-  SeriesPlanner(std::span<const PeriodicFunction> basis, double length, double tolerance);
+  SeriesPlanner(std::span<const PeriodicFunction> basis, double from, double to, double tolerance);
 
-  /// The first row that serves each lane; plans().size() where none does. Depends on the lane only.
-  void choose(const HillBatch& batch, std::size_t first, std::span<std::int64_t> rows) const;
+  /// How the members of a class are integrated: the place of the plan in plans(), -1 where none serves, and a
+  /// tail as HillSeries::tail gives it.
+  struct Choice {
+    int plan = -1;
+    double tail = 0.0;
+  };
+
+  /// The class of each lane from `first` on. Depends on the lane only.
+  void classify(const HillBatch& batch, std::size_t first, std::span<std::int64_t> classes) const;
+
+  const Choice& choice(std::int64_t number) {
+    const auto place = static_cast<std::size_t>(number);
+    auto& known = place < choices_.size()
+                      ? choices_[place]
+                      : others_.try_emplace(number, Choice{.plan = kUnmade}).first->second;
+    return known.plan == kUnmade ? known = cheapest(number) : known;
+  }
 
   std::span<const HillSeriesPlan> plans() const { return plans_; }
 
  private:
+  /// What a number of steps offers, whatever the equation.
+  struct Rung {
+    int steps;
+    double radius, growth;                  // growth: of |f| within r of the real axis
+    int kinds[3];                           // nodes of each Parity
+    std::vector<CoefficientBounds> bounds;  // column by column, per unit of Y_c
+    double cost(int terms) const;
+  };
+  /// The largest equation of a class.
+  struct Corner {
+    double size, mean;
+    std::vector<double> varying;  // column by column
+  };
+
+  static constexpr int kUnmade = -2;
+
+  const Rung& rung(std::size_t place);
+  void count_kinds(Rung& rung, const SeriesNodes& nodes) const;
+  Corner corner(std::int64_t number) const;
+  double allowed_tail(const Rung& rung, const Corner& equation) const;
+  double growth(const Rung& rung, const Corner& equation) const;
+  bool too_much_rounding(const Rung& rung, const Corner& equation) const;
+  SeriesMajorant majorant(const Rung& rung, const Corner& equation) const;
+  Choice cheapest(std::int64_t number);
+  int number_of(const HillSeriesPlan& plan);
+
+  std::vector<PeriodicFunction> basis_;
+  double from_, to_, tolerance_;
+  std::vector<double> largest_, share_;  // see SeriesClasses
+  std::vector<int> column_;
+  int columns_ = 0;
+  std::vector<std::optional<Rung>> rungs_;
+  std::vector<Choice> choices_;  // of the classes that one function has
+  std::unordered_map<std::int64_t, Choice> others_;
   std::vector<HillSeriesPlan> plans_;
-  std::vector<double> shares_;  // row by row: 1/limit, and max|f|/limit of each function
-  std::size_t functions_;
 };
 
 }  // namespace strutt::detail

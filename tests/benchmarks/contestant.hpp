@@ -49,9 +49,11 @@ Contestant contestant(std::string name, const std::vector<Point>& points, Argume
           }};
 }
 
+using LargestError = double (*)(const Answers&, const std::vector<Point>&);
+
 /// The tolerance that reaches the target with the fewest right-hand sides; empty: none does.
-inline std::optional<double> tuned_tolerance(const Contestant& c, const std::vector<Point>& points,
-                                             double target) {
+inline std::optional<double> tuned_tolerance(const Contestant& c, const std::vector<Point>& points, double target,
+                                             LargestError error_of = largest_error) {
   constexpr int kPerDecade = 8;
   std::optional<double> best;
   long fewest = std::numeric_limits<long>::max();
@@ -60,7 +62,7 @@ inline std::optional<double> tuned_tolerance(const Contestant& c, const std::vec
     const double tolerance = std::pow(10.0, static_cast<double>(k) / kPerDecade);
     c.compute(tolerance, answers);
     if (best && answers.right_hand_sides > fewest + fewest / 2) break;  // from here on they only grow
-    if (largest_error(answers, points) > target || answers.right_hand_sides >= fewest) continue;
+    if (!(error_of(answers, points) <= target) || answers.right_hand_sides >= fewest) continue;
     best = tolerance;
     fewest = answers.right_hand_sides;
   }

@@ -9,9 +9,9 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint.hpp>
 
 #include "contestant.hpp"
+#include "odeint_loop.hpp"
 #include "strutt/chart/stability_chart.hpp"
 #include "strutt/floquet/monodromy.hpp"
 #include "sundials_loop.hpp"
@@ -43,31 +43,6 @@ class Engine {
  private:
   strutt::MonodromyOptions options_;
   strutt::MonodromyEngine engine_;
-};
-
-/// Boost.odeint as its users call it: Fehlberg's pair 7(8), controlled.
-class OdeintLoop {
- public:
-  explicit OdeintLoop(Span span) : span_(span) {}
-  void set_tolerance(double tolerance) { tolerance_ = tolerance; }
-
-  Matrix compute(const Point& point, long& right_hand_sides) {
-    namespace odeint = boost::numeric::odeint;
-    using State = std::array<double, 4>;
-    State y{1.0, 0.0, 0.0, 1.0};
-    const auto f = [&](const State& x, State& dxdt, double t) {
-      ++right_hand_sides;
-      const double stiffness = -(point.delta + point.epsilon * std::cos(t)) / point.kappa;
-      dxdt = {point.kappa * x[1], stiffness * x[0], point.kappa * x[3], stiffness * x[2]};
-    };
-    auto stepper = odeint::make_controlled(tolerance_, tolerance_, odeint::runge_kutta_fehlberg78<State>());
-    odeint::integrate_adaptive(stepper, f, y, 0.0, length(span_), 0.1);
-    return monodromy(span_, y.data());
-  }
-
- private:
-  Span span_;
-  double tolerance_ = 1e-9;
 };
 
 strutt::detail::ButcherTable built_in(ARKODE_ERKTableID id) {
@@ -102,7 +77,7 @@ const std::vector<Contestant>& others() {
       contestant<ArkodeLoop>("order_8_tuned_own_sums", points(), Span::half_period,
                              strutt::detail::butcher_table(8),
                              StepControl{.first_step_radians = 5.0, .grow_at_once = true, .own_sums = true}),
-      contestant<OdeintLoop>("odeint_fehlberg_7_8", points(), Span::half_period)};
+      contestant<OdeintLoop<boost::numeric::odeint::runge_kutta_fehlberg78>>("odeint_fehlberg_7_8", points(), Span::half_period)};
   return all;
 }
 

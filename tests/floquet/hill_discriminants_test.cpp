@@ -72,9 +72,9 @@ TEST_CASE("the error of a discriminant is below its bound and the tolerance",
     CHECK(error <= points.error[l]);
     if (error > 0.0) check_within("true error of D in a batch over its bound", error / points.error[l], 1.0);
     if (tolerance > 1e-11 || box.high <= 5.0) CHECK(points.error[l] <= tolerance);  // else rounding is left
-    close += points.error[l] <= 100.0 * std::max(error, 1e-15);
+    close += points.error[l] <= 3000.0 * std::max(error, 1e-15);
   }
-  // elsewhere the errors of the steps cancel in the trace, but no bound says so
+  // the bound holds for all signs of the terms; elsewhere the errors of the steps cancel in the trace, too
   if (box.epsilon == 6.0) CHECK(2 * close >= points.size());
 }
 
@@ -83,6 +83,31 @@ TEST_CASE("the discriminant of reference is met", "[floquet][discriminants]") {
   points.add(1.0, 0.5);
   points.compute(1e-12);
   CHECK(std::abs(points.value[0] - 2.021314397416841636175261) <= 1e-12);
+}
+
+TEST_CASE("more harmonics than there are columns of classes", "[floquet][discriminants][simd]") {
+  std::vector<int> orders;
+  for (int k = 1; k <= 15; ++k) orders.push_back(k);
+  std::mt19937_64 random(21);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  constexpr std::size_t lanes = 20;
+  std::vector<double> mean(lanes), value(lanes), error(lanes);
+  std::vector<std::vector<double>> weights(orders.size(), std::vector<double>(lanes));
+  for (auto& x : mean) x = 2.0 + 2.0 * number(random);
+  for (std::size_t f = 0; f < weights.size(); ++f)
+    for (auto& x : weights[f]) x = 3.0 * number(random) / orders[f];
+  const double tolerance = GENERATE(1e-6, 1e-11);
+  HillDiscriminants(orders, tolerance).compute({mean, {weights.begin(), weights.end()}}, value, error);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    std::vector<Harmonic> harmonics;
+    for (std::size_t f = 0; f < weights.size(); ++f) harmonics.push_back({orders[f], weights[f][l], 0.0});
+    const auto m = reference::hill_matrix(PeriodicFunction::fourier(mean[l], harmonics), 512);
+    const long double kappa = std::max(1.0, std::sqrt(std::abs(mean[l])));
+    const long double size = std::max(
+        {1.0L, std::abs(m[0][0]), std::abs(kappa * m[0][1]), std::abs(m[1][0] / kappa), std::abs(m[1][1])});
+    CHECK(std::abs(value[l] - (m[0][0] + m[1][1])) <= error[l] * size);
+    CHECK(error[l] <= tolerance);
+  }
 }
 
 TEST_CASE("a point has the same bits whatever stands beside it", "[floquet][discriminants][simd][N46][extreme]") {

@@ -24,6 +24,8 @@ struct Tally {
 Tally check(const Case& c) {
   Tally tally;
   MonodromyEngine engine;
+  // the remainders of power series are proven for all signs of their terms, those of SUNDIALS are estimates
+  const double slack = c.method == Method::propagator || c.method == Method::automatic ? 1e4 : 100.0;
   for (const auto& row : reference::read(c.table)) {
     const auto model = reference::model(c.table, row);
     const auto result = analyse(engine, model, {.tolerance = c.tolerance, .method = c.method});
@@ -35,7 +37,7 @@ Tally check(const Case& c) {
       check_within("true error of M over its bound in table " + c.table, truth / result.error, 1.0);
     CHECK((result.outcome != Outcome::converged || result.error <= c.tolerance));
     CHECK((result.outcome == Outcome::converged || result.outcome == Outcome::tolerance_not_reached));
-    tally.sharp += result.error <= 100.0 * std::max(truth, 1e-15);
+    tally.sharp += result.error <= slack * std::max(truth, 1e-15);
     tally.converged += result.outcome == Outcome::converged;
     ++tally.rows;
     if (!row.has("margin")) continue;

@@ -15,6 +15,7 @@ struct HillGroup {
   std::span<const std::uint32_t> lanes;  ///< their places in the batch
   HillBatch batch;                       ///< their coefficients
   HillSeriesPlan plan;                   ///< steps 0: they need more than kMostHillSteps; no result
+  std::span<const double> tails;         ///< that HillSeries::propagate was given
   const HillPropagators& result;
 };
 
