@@ -8,6 +8,7 @@
 
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -97,6 +98,7 @@ ClosingDamping wide(DampedLine& line, ClosingDamping result, double from, double
 
 std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine& line,
                                             const TongueOptions& options) {
+  const DefaultFloatingPoint environment;
   DampedLine damped(scene, line.parameter);
   TongueOptions asked = options;
   asked.growth = true;

@@ -4,6 +4,7 @@
 
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -52,6 +53,7 @@ StabilityBand whole_line(const Scene& scene, const TongueLine& line) {
 
 std::vector<StabilityBand> stability_bands(const Scene& scene, const TongueLine& line,
                                            const BandOptions& options) {
+  const DefaultFloatingPoint environment;
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.samples >= 2 && options.samples <= 1'000'000, "samples", options.samples, "2 to 1e6");

@@ -7,6 +7,7 @@
 #include "chart/joint_margin.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/base/parallel.hpp"
 #include "strutt/floquet/sensitivity.hpp"
 #include "strutt/model/model_derivative.hpp"
@@ -182,6 +183,7 @@ std::vector<std::string> stability_parameters(const Scene& scene) {
 
 StabilityMargin stability_margin(const Scene& scene, const std::vector<std::string>& parameters,
                                  const MarginOptions& options) {
+  const DefaultFloatingPoint environment;
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.reach >= 2.0 && options.reach <= 1e6, "reach", options.reach, "2 to 1e6");

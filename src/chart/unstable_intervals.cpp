@@ -95,10 +95,11 @@ class MarginScan {
   /// The change of verdict between a and b, and how far on either side the verdict is certain.
   LineEdge enclosed(double a, double b) {
     const bool unstable_before = is_unstable(line_.at(a));
-    const auto side = [&](double p) { return is_unstable(line_.at(p)) == unstable_before ? 1.0 : -1.0; };
     const auto smooth = [&](double p) {  // the margin where its sign agrees with the side, for faster steps
-      const double m = margin(p) * (unstable_before ? -1.0 : 1.0);
-      return (m > 0.0) == (side(p) > 0.0) && m != 0.0 && std::isfinite(m) ? m : side(p) * 1e-18;
+      const Stability s = line_.at(p);
+      const double side = is_unstable(s) == unstable_before ? 1.0 : -1.0;
+      const double m = unstable_before ? -s.margin : s.margin;
+      return std::isfinite(m) && m * side > 0.0 ? m : side * 1e-18;
     };
     std::uintmax_t steps = 100;
     const auto close = [](double x, double y) { return std::abs(y - x) <= 2.0 * kUnit * std::abs(x + y); };

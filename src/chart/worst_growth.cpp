@@ -7,6 +7,7 @@
 
 #include "chart/growth_bound.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/model/model_derivative.hpp"
 
 namespace strutt {
@@ -176,6 +177,7 @@ WorstGrowth sampled(BoxScene& scene, const std::vector<ParameterRange>& box,
 
 WorstGrowth worst_growth(const Scene& scene, const std::vector<ParameterRange>& box,
                          const WorstGrowthOptions& options) {
+  const DefaultFloatingPoint environment;
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.evaluations >= 100 && options.evaluations <= 100'000'000, "evaluations",

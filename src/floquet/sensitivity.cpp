@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "floquet/hill_sensitivity.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt {
@@ -37,6 +38,7 @@ std::optional<HillDerivative> as_hill_derivative(const LinearPeriodicSystem& sys
 
 Sensitivity sensitivity(MonodromyEngine& engine, const Scene& scene, std::string_view path,
                         const MonodromyOptions& options) {
+  const DefaultFloatingPoint environment;
   options.validate();
   const ModelDerivative derivative = model_derivative(scene, path);
   const LinearModel model = linear_model(scene);
@@ -52,6 +54,7 @@ Sensitivity sensitivity(MonodromyEngine& engine, const Scene& scene, std::string
 
 Derivative edge_shift(MonodromyEngine& engine, const Scene& on_edge, std::string_view along,
                       std::string_view by, const MonodromyOptions& options) {
+  const DefaultFloatingPoint environment;
   if (along == by) return {0.0, 0.0};
   const Derivative across = sensitivity(engine, on_edge, along, options).edge,
                    moved = sensitivity(engine, on_edge, by, options).edge;

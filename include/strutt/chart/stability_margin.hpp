@@ -67,22 +67,22 @@ std::vector<std::string> stability_parameters(const Scene& scene);
 ///
 /// Along one parameter: windows that grow from the value outwards are searched for unstable intervals until
 /// one has an edge. Undamped equations of second order, with finitely many harmonics or a square wave, by
-/// tongues(): no edge is missed, however thin its tongue. Elsewhere by the sign of the margin, at 32 points a window and at its
-/// minima between them: a tongue narrower than that may be missed; edges that are found lie between certain
-/// verdicts.
+/// tongues(): no edge is missed, however thin its tongue. Elsewhere by the sign of the margin, at 32 points a
+/// window and at its minima between them: a tongue narrower than that may be missed; edges that are found lie
+/// between certain verdicts.
 ///
-/// Jointly, undamped with finitely many harmonics: the stable region of the design is bounded by two surfaces, F = mean(W) - e(V)
-/// = 0 with the upper edge e of the tongue below and the lower edge of that above (an unstable one: the two
-/// edges of its tongue). Elsewhere F is the margin. The nearest point of F = 0 has its ray along the normal:
-/// the direction is turned into the normal (sensitivity.hpp) as long as the ray becomes shorter, from each
-/// edge found along one parameter and from the gradient at the design. The result is an edge for certain;
-/// that no edge is nearer is not proved where the surface has several nearest points.
+/// Jointly, undamped with finitely many harmonics: the stable region of the design is bounded by two
+/// surfaces, F = mean(W) - e(V) = 0 with the upper edge e of the tongue below and the lower edge of that
+/// above (an unstable one: the two edges of its tongue). Elsewhere F is the margin. The nearest point of F =
+/// 0 has its ray along the normal: the direction is turned into the normal (sensitivity.hpp) as long as the
+/// ray becomes shorter, from each edge found along one parameter and from the gradient at the design. The
+/// result is an edge for certain; that no edge is nearer is not proved where the surface has several nearest
+/// points.
 ///
-/// Distance NaN, with outcome tolerance_not_reached: the search would pass more than kLargestTongue tongues of an
-/// undamped equation.
-/// A design on the edge (boundary, or unresolved) has the distance 0; unresolved: with outcome
-/// tolerance_not_reached. Throws InvalidInput for an unknown parameter, a scene that does not validate,
-/// options out of range.
+/// Distance NaN, with outcome tolerance_not_reached: the search would pass more than kLargestTongue tongues
+/// of an undamped equation. A design on the edge (boundary, or unresolved) has the distance 0; unresolved:
+/// with outcome tolerance_not_reached. Throws InvalidInput for an unknown parameter, a scene that does not
+/// validate, options out of range.
 StabilityMargin stability_margin(const Scene& scene, const std::vector<std::string>& parameters,
                                  const MarginOptions& options = {});
 
