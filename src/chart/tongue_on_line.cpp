@@ -63,7 +63,13 @@ std::vector<Stretch> TongueOnLine::stretches() {
   if (function_.order() > 0)
     std::ranges::move(edge_zeros(function_, false, line_, options_.cancel), std::back_inserter(zeros));
   order_twins(zeros, 1e-9 * (line_.to - line_.from));
+  if (zeros.empty() && inside(line_.from)) return {{std::nullopt, std::nullopt}};
   return stretches_between(zeros, function_.order());
+}
+
+bool TongueOnLine::inside(double position) {
+  const auto& value = function_.at(position);
+  return value.below(true) < 0.0 && (function_.order() == 0 || value.below(false) > 0.0);
 }
 
 std::vector<TongueEdge> TongueOnLine::edges() {
@@ -155,10 +161,11 @@ void TongueOnLine::add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& 
                                       tongue_width(value.point.variation, value.edges));
     low.growth_position = std::midpoint(low.position, high.position);
   } else {
-    const auto [position, growth] = boost::math::tools::brent_find_minima(
-        [&](double p) { return -line_equation_.growth(p); }, low.position, high.position, 30);
+    const auto at = [&](double share) { return std::lerp(low.position, high.position, share); };
+    const auto [share, growth] = boost::math::tools::brent_find_minima(
+        [&](double x) { return -line_equation_.growth(at(x)); }, 0.0, 1.0, 30);
     low.growth = -growth;
-    low.growth_position = position;
+    low.growth_position = at(share);
   }
   high.growth = low.growth;
   high.growth_position = low.growth_position;

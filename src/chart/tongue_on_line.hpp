@@ -35,6 +35,7 @@ class TongueOnLine {
   TongueWidth width_by_slope(const EdgeZero& begin, const EdgeZero& end);
 
  private:
+  bool inside(double position);
   double secant(const EdgeZero& zero);
   void add_width(const Stretch& stretch, std::vector<TongueEdge>& edges, std::size_t first);
   void add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& high);

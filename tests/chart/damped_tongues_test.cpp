@@ -90,6 +90,9 @@ TEST_CASE("the verdict is certain beside each damped edge", "[chart][tongues]") 
   check(mathieu_scene(1.0, 0.8, 0.05), {"mathieu.delta", -1.0, 12.0}, 5);
   check(mathieu_scene(0.3, 0.0, 0.2), {"mathieu.epsilon", 0.01, 6.0}, 3);
   check(mathieu_scene(1.1, 0.9, 0.0), {"mathieu.damping", 0.0, 1.0}, 1);
+  // the undamped tongue has no edge on the line
+  check(mathieu_scene(0.27, 0.0, 0.1), {"mathieu.epsilon", 0.05, 2.0}, 1);
+  check(mathieu_scene(0.27, 0.5, 0.0), {"mathieu.damping", 0.1, 1.0}, 1);
   Scene rod;
   rod.pendulum = PendulumTable{.length = 1.0, .damping = 0.02};
   rod.support = SupportTable{.amplitude = 0.2, .frequency = 8.0, .phase = 0.4};

@@ -117,6 +117,10 @@ TEST_CASE("the largest growth of a tongue is found, narrow or wide", "[chart][to
     CHECK(edge.growth == Approx(3.141592653589793 * edge.width / edge.order).epsilon(2e-6).margin(0.0));
     CHECK(edge.growth_position == Approx(0.25 * edge.order * edge.order).epsilon(1e-6));
   }
+  // just wide enough for the monodromy matrix
+  for (const TongueEdge& edge :
+       tongues(mathieu_scene(1.0, 3e-7), {"mathieu.delta", 0.1, 0.5}, {.growth = true}))
+    CHECK(edge.growth == Approx(3.141592653589793 * edge.width).epsilon(2e-6).margin(0.0));
   const Scene scene = mathieu_scene(1.0, 1.5);
   MonodromyEngine engine;
   for (const TongueEdge& edge : tongues(scene, {"mathieu.delta", -3.0, 3.0}, {.growth = true})) {
@@ -179,7 +183,8 @@ TEST_CASE("a tongue that falls between the points of a grid is in the list",
   for (int k = 0; k < 1000; ++k)
     cells.emplace_back(mathieu_delta_epsilon(std::lerp(line.from, line.to, (k + 0.5) / 1000.0), 0.1));
   MonodromyEngine engine;
-  for (const auto& cell : analyse(engine, cells, {.tolerance = 1e-12})) CHECK(cell.verdict == Verdict::stable);
+  for (const auto& cell : analyse(engine, cells, {.tolerance = 1e-12}))
+    CHECK(cell.verdict == Verdict::stable);
   const auto edges = tongues(scene, line);
   REQUIRE(edges.size() == 8);
   for (std::size_t k = 0; k < edges.size(); ++k) {
