@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace strutt {
@@ -33,12 +34,23 @@ std::vector<Method> methods_in(const std::vector<Stability>& results) {
   return methods;
 }
 
+/// Bound of the error of the trace relative to M from 0, whose largest entry is half of |trace| at least:
+/// what is left of a monodromy seen from another phase.
+double error_of_trace(const HillMonodromy& monodromy) {
+  const auto& [value, error] = monodromy.matrix;
+  const double unit = std::exp2(static_cast<double>(value.exponent));
+  return error.trace() * unit / std::max(1.0, 0.5 * std::abs(value.mantissa.trace()) * unit) + 0x1p-50;
+}
+
 /// What the surrogate says at a point; nothing where it does not answer for its tolerance.
 std::optional<Stability> answer(const Surrogate& surrogate, const LinearModel& model, double x, double y) {
-  if (const auto found = surrogate.hill_monodromy(x, y)) {
+  if (auto found = surrogate.hill_monodromy(x, y)) {
+    if (surrogate.even_phase().value_or(0.0) != 0.0)
+      found->error = std::max(found->error, error_of_trace(*found));
+    if (!(found->error <= surrogate.data().tolerance)) return std::nullopt;
     const auto* const system = std::get_if<LinearPeriodicSystem>(&model);
     const auto equation = system != nullptr ? *as_hill_equation(*system) : std::get<HillEquation>(model);
-    return found->outcome == Outcome::converged ? std::optional(assess(equation, *found)) : std::nullopt;
+    return assess(equation, *found);
   }
   const auto found = surrogate.monodromy(x, y);
   if (!found || found->outcome != Outcome::converged) return std::nullopt;

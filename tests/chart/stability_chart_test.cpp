@@ -218,23 +218,6 @@ TEST_CASE("progress rises to the number of cells", "[chart][stability_chart]") {
   CHECK(seen.back() == 200);
 }
 
-TEST_CASE("a chart goes straight into arrays of the caller", "[chart][stability_chart]") {
-  const auto method = GENERATE(Method::propagator, Method::surrogate);
-  ChartRequest request = request_of(230, 300);  // more than one strip
-  request.method = method;
-  const Chart strips = compute(mathieu(), request);
-  std::vector<std::vector<double>> layers(kAll.size(), std::vector<double>(230 * 300, -1.0));
-  const std::vector<std::span<double>> arrays(layers.begin(), layers.end());
-  const auto summary = compute_chart(mathieu(), request, arrays);
-  CHECK(same(layers, strips.layers));
-  CHECK(summary.cells == strips.summary.cells);
-  CHECK(summary.methods == strips.summary.methods);
-  CHECK_THROWS_AS(compute_chart(mathieu(), request, std::span(arrays).first(5)), InvalidInput);
-  layers[3].resize(100);
-  const std::vector<std::span<double>> shorter(layers.begin(), layers.end());
-  CHECK_THROWS_AS(compute_chart(mathieu(), request, shorter), InvalidInput);
-}
-
 TEST_CASE("an exception of the sink passes through", "[chart][stability_chart]") {
   struct Stop {};
   CHECK_THROWS_AS(compute_chart(mathieu(), request_of(3, 2), [](const ChartStrip&) { throw Stop{}; }), Stop);

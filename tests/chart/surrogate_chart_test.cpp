@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "strutt/base/error.hpp"
 #include "strutt/chart/stability_chart.hpp"
 #include "strutt/floquet/verdict.hpp"
 #include "strutt/io/scene_file.hpp"
@@ -240,6 +241,21 @@ TEST_CASE("cells that a surrogate cannot answer for are computed point by point"
   const Chart edge = compute(mathieu(), request);
   CHECK(edge.layers[0][10] == static_cast<double>(Verdict::boundary));
   CHECK(edge.summary.interpolated < edge.summary.cells);
+}
+
+TEST_CASE("a chart goes straight into arrays of the caller", "[chart][stability_chart]") {
+  ChartRequest request = request_of(230, 300, 1e-6);  // more than one strip
+  request.method = GENERATE(Method::propagator, Method::surrogate);
+  const Chart strips = compute(mathieu(), request);
+  Chart whole;
+  whole.layers.assign(kAll.size(), std::vector<double>(230 * 300, -1.0));
+  std::vector<std::span<double>> arrays(whole.layers.begin(), whole.layers.end());
+  const auto summary = compute_chart(mathieu(), request, arrays);
+  CHECK(same(whole, strips));
+  CHECK(summary.methods == strips.summary.methods);
+  CHECK_THROWS_AS(compute_chart(mathieu(), request, std::span(arrays).first(5)), InvalidInput);
+  arrays[3] = arrays[3].first(100);
+  CHECK_THROWS_AS(compute_chart(mathieu(), request, arrays), InvalidInput);
 }
 
 TEST_CASE("growth beyond the range of double does not end a surrogate",
