@@ -59,9 +59,10 @@ void place(const TongueWidth& width, TongueEdge& low, TongueEdge& high) {
 }  // namespace
 
 std::vector<Stretch> TongueOnLine::stretches() {
-  std::vector<EdgeZero> zeros = edge_zeros(function_, true, line_, options_.cancel);
+  std::vector<EdgeZero> zeros = edge_zeros(function_, true, line_, options_.resolution, options_.cancel);
   if (function_.order() > 0)
-    std::ranges::move(edge_zeros(function_, false, line_, options_.cancel), std::back_inserter(zeros));
+    std::ranges::move(edge_zeros(function_, false, line_, options_.resolution, options_.cancel),
+                      std::back_inserter(zeros));
   order_twins(zeros, 1e-9 * (line_.to - line_.from));
   return stretches_between(zeros, function_.order());
 }
@@ -73,7 +74,7 @@ std::vector<TongueEdge> TongueOnLine::edges() {
     const std::size_t first = result.size();
     if (stretch.begin) result.push_back(edge(*stretch.begin, false, crossing));
     if (stretch.end) result.push_back(edge(*stretch.end, true, crossing));
-    if (function_.order() > 0) add_width(stretch, result, first);
+    if (function_.order() > 0 && options_.widths) add_width(stretch, result, first);
     ++crossing;
   }
   return result;

@@ -1,8 +1,10 @@
 // The command `strutt tongues`: columns, JSON, files, exit codes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "io/scratch.hpp"
@@ -134,6 +136,29 @@ TEST_CASE("tongues of damped scenes, square waves and systems", "[apps][tongues]
     CHECK(rows[i][8] == (i == 3 || i == 4 ? "complex" : "-1"));
   }
   CHECK(coupled.run("linear.period=1.8:3.4", {"--count", "2"}).code == 2);
+}
+
+TEST_CASE("tongues --over writes curves, and draws them", "[apps][tongues]") {
+  const Command command("[mathieu]\nepsilon = 0.5\ndamping = 0.1\n");
+  const auto picture = command.write("curves.svg", "");
+  const Result result =
+      command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:2", "--figure", picture});
+  CHECK(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() > 50);
+  CHECK(rows[0] ==
+        Words{"n", "curve", "edge", "mathieu.delta", "mathieu.epsilon", "error", "method", "outcome"});
+  CHECK(csv_comment(result.out, "units") == "1,1,,1,1,1,,");
+  CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row[2] == "tip"; }) == 2);
+  std::ifstream file(picture);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK_THAT(text, Catch::Matchers::Contains("</svg>"));
+  CHECK_THAT(text, Catch::Matchers::Contains("n = 2"));
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.delta=0:2"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=2"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:1", "--chord", "1"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:1", "--growth"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--figure", picture}).code == 2);
 }
 
 TEST_CASE("a scene that has no tongues at all is a mistake of the file", "[apps][tongues]") {

@@ -56,6 +56,9 @@ struct TongueEdge {
 struct TongueOptions {
   double tolerance = 1e-12;  ///< largest `error` wanted, 1e-13 <= tolerance <= 1e-2
   int count = 0;             ///< tongues n = 0 ... count - 1; 0: all that the line can meet
+  int system_steps = kSystemSteps;  ///< of a line of a system, >= 2
+  double resolution = 1e-9;  ///< of the line: pairs of zeros of one edge closer than that may be missed
+  bool widths = true;        ///< false: without widths, `width` NaN; faster
   bool growth = false;       ///< find the largest growth of each pair, to a relative accuracy of about 1e-6
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -81,7 +84,7 @@ int tongue_count(const Scene& scene, const TongueLine& line);
 /// tongue n, an eigenvalue with a proved index, gives F(p) = mean(p) - e(V(p)); the line is inside tongue n
 /// where mean(p) lies between both edges. As |e(V) - e(V')| <= sum of |V_k - V'_k|, F has no zero in an
 /// interval whose ends are further from zero than it can change inside: the line is bisected until each piece
-/// is proved empty or is as short as the resolution of the zero found next to it. Square waves alike, with
+/// is proved empty or is as short as the resolution. Square waves alike, with
 /// edges in closed form.
 ///
 /// The width in p of a pair is that of the tongue in the mean (tongue_width, relative accuracy) divided by
