@@ -111,8 +111,8 @@ std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
   return std::make_unique<JsonChartWriter>(json_path(arguments), description);
 }
 
-constexpr double kOverlaySeconds = 0.5;
-constexpr int kMostOverlaidTongues = 60;
+constexpr int kMostOverlaidTongues = 40, kMostOverlaySlices = 300;
+constexpr double kOverlayResolution = 1e-5;
 constexpr double kOverlayChord = 2e-3;
 
 /// The edges of tongues in the window of a chart; none where they cannot be had at little cost.
@@ -134,7 +134,8 @@ std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest
                          {.tolerance = 1e-9,
                           .chord = kOverlayChord,
                           .count = count,
-                          .max_seconds = kOverlaySeconds / count,
+                          .resolution = kOverlayResolution,
+                          .max_slices = kMostOverlaySlices,
                           .threads = request.threads,
                           .cancel = &cancel_flag()});
   } catch (const InvalidInput&) {

@@ -7,11 +7,11 @@
 
 #include "chart/system_tongues.hpp"
 #include "chart/tongues_of_order.hpp"
+#include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kResolution = 1e-7;  // of a line: edges that touch it would take long
 constexpr int kTipSteps = 60;
 constexpr double kTipResolution = 0x1p-50;  // of the range
 constexpr double kBesideTip = 0.02;         // of the way to it
@@ -20,13 +20,13 @@ constexpr double kBesideTip = 0.02;         // of the way to it
 struct Pair {
   double over, square, middle, error;  ///< error: of the distance
 
-  Pair(const Slice& slice, std::size_t first, double range) : over(slice.over) {
+  Pair(const Slice& slice, std::size_t first, double resolution) : over(slice.over) {
     const double low = slice.edges[first].edge.position, high = slice.edges[first + 1].edge.position;
     square = (high - low) * (high - low);
     middle = std::midpoint(low, high);
     error = 2.0 * std::max(slice.edges[first].edge.error, slice.edges[first + 1].edge.error) *
                 std::max(1.0, std::abs(middle)) +
-            (slice.edges[first].edge.method == Method::propagator ? 0.0 : kResolution * range);
+            (slice.edges[first].edge.method == Method::propagator ? 0.0 : resolution);
   }
 };
 
@@ -45,10 +45,12 @@ Slice without_pair(Slice slice, std::size_t first) {
 }
 
 Slice SliceSource::at(double over) {
+  if (++slices_ > options_.max_slices)
+    throw NumericalFailure("tongue " + std::to_string(order_) + ": too many lines for its curves");
   parameter(scene_, over_.parameter) = over;
   const TongueOptions options{.tolerance = options_.tolerance,
                               .system_steps = options_.system_steps,
-                              .resolution = kResolution,
+                              .resolution = options_.resolution,
                               .widths = false,
                               .cancel = options_.cancel};
   const auto edges = order_ == kNoOrder ? system_tongues(engine_, scene_, along_, options)
@@ -59,8 +61,8 @@ Slice SliceSource::at(double over) {
 }
 
 CurveTip find_tip(SliceSource& source, double none, const Slice& with, std::size_t pair) {
-  const double range = source.along().to - source.along().from;
-  Pair near(with, pair, range);
+  const double finest = source.resolution() * (source.along().to - source.along().from);
+  Pair near(with, pair, finest);
   std::optional<Pair> far;
   const double resolution = kTipResolution * (source.over().to - source.over().from);
   bool inner = true;  // next on the side of the pair
@@ -76,7 +78,7 @@ CurveTip find_tip(SliceSource& source, double none, const Slice& with, std::size
     const Slice slice = source.at(next);
     if (same_pattern(slice, with)) {
       far = near;
-      near = Pair(slice, pair, range);
+      near = Pair(slice, pair, finest);
     } else {
       none = next;
     }

@@ -29,7 +29,8 @@ class SliceSource {
               const CurveOptions& options)
       : scene_(scene), along_(along), over_(over), order_(order), options_(options) {}
 
-  Slice at(double over);
+  Slice at(double over);  ///< throws NumericalFailure after max_slices
+  double resolution() const { return options_.resolution; }
   const TongueLine& along() const { return along_; }
   const TongueLine& over() const { return over_; }
 
@@ -40,6 +41,7 @@ class SliceSource {
   const TongueLine& over_;
   int order_;
   const CurveOptions& options_;
+  int slices_ = 0;
 };
 
 /// Where a pair of neighbouring edges comes into being.

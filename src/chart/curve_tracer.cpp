@@ -5,8 +5,6 @@
 #include <numeric>
 #include <optional>
 
-#include "strutt/base/error.hpp"
-
 namespace strutt {
 namespace {
 
@@ -111,8 +109,6 @@ bool CurveTracer::straight(const Slice& a, const Slice& middle, const Slice& b) 
 void CurveTracer::advance(const Slice& a, const Slice& b, int depth) {
   const double height = source_.over().to - source_.over().from;
   const bool same = same_pattern(a, b);
-  if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() > options_.max_seconds)
-    throw NumericalFailure("tongue " + std::to_string(order_) + ": no time left for its curves");
   if (!(b.over - a.over > 0x1p-50 * height)) return same ? append(b) : restart(b);
   if (options_.cancel != nullptr && *options_.cancel) return;
   const double apart = (b.over - a.over) / height;

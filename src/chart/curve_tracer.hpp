@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <vector>
 
 #include "chart/curve_slices.hpp"
@@ -37,7 +36,6 @@ class CurveTracer {
   SliceSource& source_;
   int order_;
   const CurveOptions& options_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<Strand> strands_;
   std::vector<int> active_;  ///< of the edges of the last slice
 };

@@ -16,6 +16,8 @@ void validate(const CurveOptions& options) {
   require(options.chord >= 1e-6 && options.chord <= 0.1, "chord", options.chord, "1e-6 to 0.1");
   require(options.count >= 0 && options.count <= kLargestTongue + 1, "count", options.count, "0 to 1001");
   require(options.slices >= 1, "slices", options.slices, "1 or more");
+  require(options.resolution >= 1e-12 && options.resolution <= 1e-2, "resolution", options.resolution,
+          "1e-12 to 1e-2");
   require(options.system_steps >= 2, "system_steps", options.system_steps, "2 or more");
 }
 

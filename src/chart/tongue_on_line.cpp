@@ -82,7 +82,8 @@ std::vector<TongueEdge> TongueOnLine::edges() {
 
 TongueEdge TongueOnLine::edge(const EdgeZero& zero, bool upper, int crossing) {
   const double p = zero.position, size = std::max(1.0, std::abs(p));
-  const auto slope = function_.slope(zero.upper, p, p, line_);
+  // with one V all along the line F is the mean but for a constant, and a secant is enough
+  const auto slope = line_equation_.one_variation() ? std::nullopt : function_.slope(zero.upper, p, p, line_);
   const double steepness = slope ? std::abs(slope->value) : secant(zero);
   const auto& value = function_.at(p);
   const double off = std::abs(value.below(zero.upper)) + value.error(zero.upper);
@@ -92,7 +93,7 @@ TongueEdge TongueOnLine::edge(const EdgeZero& zero, bool upper, int crossing) {
       .upper = upper,
       .crossing = crossing,
       .position = p,
-      .error = (distance * (1.0 + 1e-9) + kUnit * std::abs(p)) / size,
+      .error = (distance * (slope ? 1.0 + 1e-9 : 1.01) + kUnit * std::abs(p)) / size,
       .mechanism = function_.order() % 2 == 0 ? Mechanism::plus_one : Mechanism::minus_one,
       .method = value.point.variation.is_piecewise_constant() && !value.point.variation.is_constant()
                     ? Method::exact

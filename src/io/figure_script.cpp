@@ -148,7 +148,7 @@ std::string figure_script(const ChartDescription& description, const FigureData&
   }
   if (content.has_tongues) {
     text += fmt::format(
-        ", '{}' with lines linewidth 1.2 linecolor rgb '#000000' title 'edges of all tongues (never thinner than this)'",
+        ", '{}' with lines linewidth 1.2 linecolor rgb '#000000' title 'tongue edges (min. stroke)'",
         kTonguesFile);
   }
   text += key_boxes(data);

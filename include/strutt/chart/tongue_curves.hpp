@@ -40,7 +40,8 @@ struct CurveOptions {
   int count = 0;         ///< tongues n = 0 ... count - 1; 0: all that the window can meet
   int slices = 16;       ///< steps of the second parameter that the search begins with, >= 1
   int system_steps = 250;  ///< see TongueOptions
-  double max_seconds = std::numeric_limits<double>::infinity();  ///< for each tongue
+  double resolution = 1e-7;  ///< see TongueOptions; edges that touch a line take long at 1e-9
+  int max_slices = std::numeric_limits<int>::max();  ///< lines for each tongue
   int threads = 1;         ///< 0: one per core
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -55,7 +56,8 @@ struct CurveOptions {
 /// method. A closed curve, or a tip and back, between two of the first lines may be missed.
 ///
 /// Cost: that of tongues() for some 30 to 60 values of the second parameter. Throws InvalidInput as tongues()
-/// at both ends of `over`, and where only one of them has tongues with an index; NumericalFailure when out of time.
+/// at both ends of `over`, and where only one of them has tongues with an index; NumericalFailure where
+/// max_slices are not enough.
 std::vector<TongueCurve> tongue_curves(const Scene& scene, const TongueLine& along, const TongueLine& over,
                                        const CurveOptions& options = {});
 
