@@ -35,14 +35,15 @@ struct TongueCurve {
 
 struct CurveOptions {
   double tolerance = 1e-12;  ///< largest `error` wanted of a point, 1e-13 <= tolerance <= 1e-2
-  /// Straight lines between the points leave the curve by no more than this part of the window, 1e-6 <= chord <= 0.1.
+  /// Straight lines between the points leave the curve by no more than this part of the window, 1e-6 <= chord
+  /// <= 0.1.
   double chord = 1e-3;
-  int count = 0;         ///< tongues n = 0 ... count - 1; 0: all that the window can meet
-  int slices = 16;       ///< steps of the second parameter that the search begins with, >= 1
-  int system_steps = 250;  ///< see TongueOptions
+  int count = 0;             ///< tongues n = 0 ... count - 1; 0: all that the window can meet
+  int slices = 16;           ///< steps of the second parameter that the search begins with, >= 1
+  int system_steps = 250;    ///< see TongueOptions
   double resolution = 1e-7;  ///< see TongueOptions; edges that touch a line take long at 1e-9
   int max_slices = std::numeric_limits<int>::max();  ///< lines for each tongue
-  int threads = 1;         ///< 0: one per core
+  int threads = 1;                                   ///< 0: one per core
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -50,10 +51,11 @@ struct CurveOptions {
 ///
 /// The window is cut into lines along the first parameter at values of the second; each gives all edges of a
 /// tongue, with its index (tongues()), so no curve can be taken for another and none folds over itself. The
-/// edges of neighbouring lines are joined in their order. Lines are added in the middle until every edge there
-/// lies within `chord` of the straight line between its neighbours. Where edges appear between two lines in pairs the curve turns
-/// back: as the distance of the pair grows with the square root, its square is followed to the tip by the secant
-/// method. A closed curve, or a tip and back, between two of the first lines may be missed.
+/// edges of neighbouring lines are joined in their order. Lines are added in the middle until every edge
+/// there lies within `chord` of the straight line between its neighbours. Where edges appear between two
+/// lines in pairs the curve turns back: as the distance of the pair grows with the square root, its square is
+/// followed to the tip by the secant method. A closed curve, or a tip and back, between two of the first
+/// lines may be missed.
 ///
 /// Cost: that of tongues() for some 30 to 60 values of the second parameter. Throws InvalidInput as tongues()
 /// at both ends of `over`, and where only one of them has tongues with an index; NumericalFailure where
