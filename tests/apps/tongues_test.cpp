@@ -161,6 +161,29 @@ TEST_CASE("tongues --over writes curves, and draws them", "[apps][tongues]") {
   CHECK(command.run("mathieu.delta=-1:2", {"--figure", picture}).code == 2);
 }
 
+TEST_CASE("the figure of a chart has the edges of its tongues, or does without", "[apps][tongues][figure]") {
+  const ScratchDirectory directory;
+  const auto picture_of = [&](const std::string& scene, const Words& axes) {
+    const auto path = (directory.path() / "scene.toml").string();
+    const auto figure = (directory.path() / "figure.svg").string();
+    std::ofstream(path) << scene;
+    Words words{"chart", path, "-o", (directory.path() / "chart.npz").string(), "--figure", figure};
+    words.insert(words.end(), axes.begin(), axes.end());
+    CHECK(strutt(words).code == 0);
+    std::ifstream file(figure);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  using Catch::Matchers::Contains;
+  CHECK_THAT(picture_of("[mathieu]\ndelta = 1\n",
+                        {"--x", "mathieu.delta=-1.03:5:21", "--y", "mathieu.epsilon=0.1:5:11"}),
+             Contains("tongue edges"));
+  const auto system = picture_of(
+      "[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1.3, -0.3], [-0.3, 2.3]], "
+      "harmonics = [{ order = 1, cos = [[0.4, 0], [0, 0]] }] }\n",
+      {"--x", "linear.period=2.61:3.07:11", "--y", "linear.stiffness.harmonics.1.cos.0.0=0.31:0.83:9"});
+  CHECK_THAT(system, Contains("edge of stability") && !Contains("tongue edges"));
+}
+
 TEST_CASE("a scene that has no tongues at all is a mistake of the file", "[apps][tongues]") {
   const Command command("[hill]\nperiod = 1\nharmonics = [{ order = 1, cos = 1e9 }]\n");
   CHECK(command.run("hill.mean=0:1").code == 3);
