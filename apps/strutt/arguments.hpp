@@ -57,6 +57,9 @@ struct TonguesArguments : CommonArguments {
   std::optional<std::string> at;
   std::optional<std::string> count;
   bool growth = false;
+  std::optional<std::string> over;
+  std::optional<std::string> chord;
+  std::optional<std::string> figure;
 };
 
 struct MarginArguments : CommonArguments {

@@ -133,16 +133,52 @@ std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
   return std::make_unique<JsonChartWriter>(json_path(arguments), description);
 }
 
+constexpr int kMostOverlaidTongues = 40, kMostOverlaySlices = 300;
+constexpr double kOverlayResolution = 1e-5;
+constexpr double kOverlayChord = 2e-3;
+
+/// The edges of tongues in the window of a chart; none where they cannot be had at little cost.
+std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest& request) {
+  const auto line = [](const Axis& axis) {
+    return TongueLine{axis.parameter, std::min(axis.from, axis.to), std::max(axis.from, axis.to)};
+  };
+  const TongueLine x = line(request.x), y = line(request.y);
+  if (scene.linear || !(x.from < x.to) || !(y.from < y.to)) return {};
+  try {
+    Scene end = scene;
+    int count = 0;
+    for (const double value : {y.from, y.to}) {
+      parameter(end, y.parameter) = value;
+      count = std::max(count, tongue_count(end, x));
+    }
+    if (count > kMostOverlaidTongues) return {};
+    return tongue_curves(scene, x, y,
+                         {.tolerance = 1e-9,
+                          .chord = kOverlayChord,
+                          .count = count,
+                          .resolution = kOverlayResolution,
+                          .max_slices = kMostOverlaySlices,
+                          .threads = request.threads,
+                          .cancel = &cancel_flag()});
+  } catch (const InvalidInput&) {
+    return {};
+  } catch (const NumericalFailure&) {
+    return {};
+  }
+}
+
 /// Hands the strips to the data file (the layers asked for) and to the figure (all of them).
 class Sinks {
  public:
-  Sinks(const ChartArguments& arguments, const ChartDescription& description, const ChartRequest& computed)
+  Sinks(const ChartArguments& arguments, const Scene& scene, const ChartDescription& description,
+        const ChartRequest& computed)
       : layers_(description.request.layers.size()), writer_(writer_for(arguments, description)) {
     if (!arguments.figure) return;
     require_gnuplot(*arguments.figure);
     ChartDescription all = description;
     all.request = computed;
     figure_.emplace(*arguments.figure, all);
+    figure_->set_tongues(overlaid_tongues(scene, computed));
   }
 
   void add(const ChartStrip& strip) {
@@ -222,7 +258,7 @@ ExitCode run(const ChartArguments& arguments) {
       .y = parameter_info(scene.scene, request.y.parameter),
       .request = request,
       .provenance = provenance_of(arguments, effective(scene, request), plan.method, request.tolerance)};
-  Sinks sinks(arguments, description, computed);
+  Sinks sinks(arguments, scene.scene, description, computed);
   Progress progress(!arguments.quiet, "cells");
   const ChartSummary summary = compute_chart(
       scene.scene, computed, [&](const ChartStrip& strip) { sinks.add(strip); },

@@ -178,6 +178,15 @@ CLI::App* add_tongues(CLI::App& app, TonguesArguments& arguments) {
   command->add_option("--count", arguments.count, "tongues n = 0 ... N - 1 (default: all on the line)")->type_name("N");
   command->add_flag("--growth", arguments.growth,
                     "add the largest growth per period between both edges, and where");
+  command->add_option("--over", arguments.over, "a second parameter and its range: the edges as curves")
+      ->type_name("Q=FROM:TO");
+  command
+      ->add_option("--chord", arguments.chord,
+                   "with --over: largest distance of a curve from the line between its points, as part of the "
+                   "window, 1e-6 to 0.1 (default 1e-3)")
+      ->type_name("C");
+  command->add_option("--figure", arguments.figure, "with --over: draw the curves as .png, .svg or .pdf")
+      ->type_name("FILE");
   command->footer(std::string(kTonguesExample) + kExitCodes);
   return command;
 }

@@ -39,9 +39,10 @@ Example:
 )";
 
 inline constexpr const char* kTonguesExample = R"(
-Example:
+Examples:
   printf '[mathieu]\nepsilon = 0.01\n' > scene.toml
   strutt tongues scene.toml --along mathieu.delta=-1:40
+  strutt tongues scene.toml --along mathieu.delta=-1:5 --over mathieu.epsilon=0:5 -o curves.csv
 )";
 
 inline constexpr const char* kMarginExample = R"(

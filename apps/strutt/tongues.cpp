@@ -12,78 +12,10 @@
 #include "strutt/base/error.hpp"
 #include "strutt/base/parallel.hpp"
 #include "terminal.hpp"
+#include "tongue_lines.hpp"
 
 namespace strutt::app {
 namespace {
-
-TongueLine line_of(const std::string& text, const Scene& scene) {
-  const auto equals = text.find('=');
-  const auto ends = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
-  if (ends.size() != 2) throw UsageError("--along '" + text + "': wanted is P=FROM:TO");
-  TongueLine line{.parameter = text.substr(0, equals)};
-  try {
-    const std::string unit = parameter_info(scene, line.parameter).unit;
-    line.from = quantity_of("--along", ends[0], unit);
-    line.to = quantity_of("--along", ends[1], unit);
-  } catch (const InvalidInput& error) {
-    throw UsageError("--along '" + text + "': " + error.what());
-  }
-  return line;
-}
-
-/// A scene that is refused on every line, however short, is a mistake of the file.
-void require_scene(const TonguesArguments& arguments, const SceneFile& file, const std::string& path) {
-  if (!arguments.set.empty()) return;
-  try {
-    const double value = parameter(file.scene, path);
-    require_tongue_line(file.scene, {path, value, std::nextafter(value, HUGE_VAL)});
-  } catch (const InvalidInput& error) {
-    throw FileError(file.file, 0, 0, error.what());
-  }
-}
-
-TongueLine usable(const TongueLine& line, const TonguesArguments& arguments, const SceneFile& file) {
-  try {
-    require_tongue_line(file.scene, line);
-    if (arguments.count && !has_tongue_index(file.scene, line))
-      throw UsageError("--count: tongues of a system with more than one degree of freedom have no index");
-  } catch (const InvalidInput& error) {
-    require_scene(arguments, file, line.parameter);
-    throw UsageError("--along '" + arguments.along + "': " + error.what());
-  }
-  return line;
-}
-
-/// A line through the scene for every row of the table, or the scene alone.
-struct Lines {
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows{{}};
-  std::vector<Scene> scenes;
-};
-
-Lines lines_of(const TonguesArguments& arguments, const Scene& scene, const TongueLine& line) {
-  if (!arguments.at) return {.columns = {}, .scenes = {scene}};
-  TableSchema schema{.required = {}, .optional = parameter_paths(scene)};
-  std::erase(schema.optional, line.parameter);
-  for (const auto& path : schema.optional) {
-    const std::string unit = parameter_info(scene, path).unit;
-    if (!unit.empty()) schema.units[path] = unit;
-  }
-  NumericTable table = read_table(*arguments.at, schema);
-  Lines lines{.columns = table.columns, .rows = table.rows, .scenes = {}};
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    Scene changed = scene;
-    for (std::size_t j = 0; j < table.columns.size(); ++j)
-      parameter(changed, table.columns[j]) = table.rows[i][j];
-    try {
-      require_tongue_line(changed, line);
-    } catch (const InvalidInput& error) {
-      throw table.error_at(i, 0, error.what());
-    }
-    lines.scenes.push_back(std::move(changed));
-  }
-  return lines;
-}
 
 /// Columns that are there only if asked for, or needed.
 struct Extras {
@@ -92,12 +24,9 @@ struct Extras {
   bool crossing = false;
 };
 
-std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const Lines& lines,
+std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const SceneRows& lines,
                                const Extras& extras) {
-  const auto unit = [&](const std::string& path) {
-    const std::string text = parameter_info(scene, path).unit;
-    return text.empty() ? "1" : text;
-  };
+  const auto unit = [&](const std::string& path) { return column_unit(scene, path); };
   std::vector<Column> columns{{"n", "1"}, {"edge", ""}};
   for (const auto& path : lines.columns) columns.push_back({path, unit(path)});
   columns.insert(columns.end(), {{"position", unit(line.parameter)},
@@ -141,10 +70,12 @@ ExitCode run(const TonguesArguments& arguments) {
   options.tolerance = tolerance_of(arguments, scene.chart.tolerance.value_or(options.tolerance));
   if (arguments.count)
     options.count = static_cast<int>(count_of("--count", *arguments.count, 1, kLargestTongue + 1));
-  const TongueLine line = usable(line_of(arguments.along, scene.scene), arguments, scene);
+  const TongueLine line = usable_line(arguments, scene);
+  if (arguments.over) return run_tongue_curves(arguments, scene, line);
+  if (arguments.figure || arguments.chord) throw UsageError("--figure and --chord go with --over");
   const Method method = tongue_method(scene.scene, line);
   method_of(arguments, "tongues", {method});
-  const Lines lines = lines_of(arguments, scene.scene, line);
+  const SceneRows lines = scene_rows(arguments, scene.scene, line, {line.parameter});
   if (arguments.dry_run) {
     print_plan(
         scene,

@@ -12,7 +12,7 @@ constexpr double kNarrow = 2e-6;     // undamped width in the mean
 constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
 constexpr double kCurvature =
     8.0;  // bounds the relative error of the narrow form by its product with width^2
-constexpr int kSteps = 32;
+constexpr int kSteps = 32, kStepsOfMean = 8;
 constexpr int kGrowthSteps = 16;
 
 }  // namespace
@@ -85,7 +85,7 @@ void DampedTongue::add_wide(const Stretch& stretch) {
   if (!(from < to)) return;
   // at the edges of the undamped tongue |D| = 2
   const auto changes = stability_changes(verdicts_, from, to,
-                                         {.steps = kSteps,
+                                         {.steps = only_mean_changes(from, to) ? kStepsOfMean : kSteps,
                                           .stable_from = stretch.begin.has_value(),
                                           .stable_to = stretch.end.has_value(),
                                           .cancel = options_.cancel});
@@ -108,7 +108,15 @@ void DampedTongue::add_wide(const Stretch& stretch) {
   if (!changes.empty() && changes.back().begins) ++crossing_;
 }
 
+/// |D| then has one maximum.
+bool DampedTongue::only_mean_changes(double from, double to) {
+  const LinePoint low = equation_.at(from), high = equation_.at(to);
+  return change_between(low, high) == std::abs(low.mean - high.mean) &&
+         low.damping_shift == high.damping_shift;
+}
+
 void DampedTongue::add_width(TongueEdge& low, TongueEdge& high, const std::optional<Narrow>& estimate) const {
+  if (!options_.widths) return;
   const auto absolute = [](const TongueEdge& e) { return e.error * std::max(1.0, std::abs(e.position)); };
   const double difference = high.position - low.position;
   TongueWidth width{difference, std::min(1.0, (absolute(low) + absolute(high)) / difference + 2.0 * kUnit)};

@@ -25,6 +25,7 @@ class DampedTongue {
   };
   std::optional<Narrow> narrow(const Stretch& stretch);
 
+  bool only_mean_changes(double from, double to);
   bool add_narrow(const Stretch& stretch);
   void add_wide(const Stretch& stretch);
   TongueEdge edge(double position, double error, bool upper) const;

@@ -13,6 +13,7 @@ namespace strutt {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
+constexpr int kBlock = 32;  // orders computed together
 
 bool is_square(const PeriodicFunction& v) { return v.harmonics().empty() && !v.is_constant(); }
 
@@ -37,13 +38,12 @@ double sum_of_amplitudes(const PeriodicFunction& v) {
 }
 
 /// Mathieu's: delta = a/4 at q = 2 epsilon, whose rounding moves a by 2 of it at most.
-TongueEdges mathieu_edges(int order, double epsilon) {
-  const auto pair = characteristic_values(order, order, 2.0 * epsilon).front();
+TongueEdges mathieu_edges(const CharacteristicPair& pair, double epsilon) {
   const auto quarter = [&](const CharacteristicValue& x) {
     return CharacteristicValue{0.25 * x.value, 0.25 * x.error + 2.0 * kUnit * epsilon};
   };
-  if (!pair.b) return {order, std::nullopt, quarter(pair.a)};
-  return {order, quarter(*pair.b), quarter(pair.a)};
+  if (!pair.b) return {pair.order, std::nullopt, quarter(pair.a)};
+  return {pair.order, quarter(*pair.b), quarter(pair.a)};
 }
 
 }  // namespace
@@ -66,7 +66,21 @@ double change_between(const LinePoint& a, const LinePoint& b) {
 }
 
 LineEquation::LineEquation(const Scene& scene, const TongueLine& line)
-    : scene_(scene), value_(&parameter(scene_, line.parameter)) {}
+    : scene_(scene), value_(&parameter(scene_, line.parameter)) {
+  one_variation_ = same_function(at(line.from).variation, at(line.to).variation);
+}
+
+TongueEdges LineEquation::mathieu_tongue(double epsilon, int order) {
+  const int first = one_variation_ ? order / kBlock * kBlock : order;
+  const int last = one_variation_ ? std::min(first + kBlock - 1, kLargestTongue) : order;
+  if (mathieu_.empty() || mathieu_epsilon_ != epsilon || mathieu_.front().order != first) {
+    mathieu_epsilon_ = epsilon;
+    mathieu_.clear();
+    for (const auto& pair : characteristic_values(first, last, 2.0 * epsilon))
+      mathieu_.push_back(mathieu_edges(pair, epsilon));
+  }
+  return mathieu_[static_cast<std::size_t>(order - first)];
+}
 
 std::optional<HillEquation> LineEquation::hill_equation_of(const Scene& scene) {
   const LinearModel model = linear_model(scene);
@@ -124,7 +138,8 @@ const EdgeFunction::Value& EdgeFunction::at(double parameter) {
 
 TongueEdges EdgeFunction::edges_of(const LinePoint& point) {
   if (last_ && same_function(last_->point.variation, point.variation)) return last_->edges;
-  if (const auto epsilon = amplitude_of_one_harmonic(point.variation)) return mathieu_edges(order_, *epsilon);
+  if (const auto epsilon = amplitude_of_one_harmonic(point.variation))
+    return line_.mathieu_tongue(*epsilon, order_);
   return tongue_edges(point.variation, order_, order_).front();
 }
 

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <vector>
 
 #include "strutt/chart/tongues.hpp"
 #include "strutt/floquet/monodromy.hpp"
@@ -33,6 +34,9 @@ class LineEquation {
   static std::optional<HillEquation> hill_equation_of(const Scene& scene);
 
   LinePoint at(double parameter);
+  /// The edges of a tongue of Mathieu's equation; many orders at once where V is the same all along the line.
+  TongueEdges mathieu_tongue(double epsilon, int order);
+  bool one_variation() const { return one_variation_; }  ///< V is the same all along the line
   double half_damping(double parameter);  ///< cT/2
   double growth(double parameter);        ///< by the monodromy matrix
 
@@ -42,6 +46,9 @@ class LineEquation {
   MonodromyEngine engine_;
   Scene scene_;
   double* value_;
+  bool one_variation_ = false;
+  std::vector<TongueEdges> mathieu_;  ///< of the orders that were asked for last
+  double mathieu_epsilon_ = 0.0;
 };
 
 /// F(p) = mean(p) - edge(V(p)) of both edges of one tongue.

@@ -10,16 +10,13 @@
 namespace strutt {
 namespace {
 
-constexpr double kResolution = 1e-9;  // of the line
 constexpr int kMostPieces = 200'000;
 
 class ZeroSearch {
  public:
-  ZeroSearch(EdgeFunction& function, bool upper, const TongueLine& line, const std::atomic<bool>* cancel)
-      : function_(function),
-        upper_(upper),
-        resolution_(kResolution * (line.to - line.from)),
-        cancel_(cancel) {
+  ZeroSearch(EdgeFunction& function, bool upper, const TongueLine& line, double resolution,
+             const std::atomic<bool>* cancel)
+      : function_(function), upper_(upper), resolution_(resolution * (line.to - line.from)), cancel_(cancel) {
     const double from = beyond_zero(line.from, line.to), to = beyond_zero(line.to, line.from);
     if (from > line.from) add(line.from, value(from) > 0.0);
     if (!(from < to)) return;
@@ -88,8 +85,8 @@ class ZeroSearch {
 }  // namespace
 
 std::vector<EdgeZero> edge_zeros(EdgeFunction& function, bool upper, const TongueLine& line,
-                                 const std::atomic<bool>* cancel) {
-  return ZeroSearch(function, upper, line, cancel).zeros;
+                                 double resolution, const std::atomic<bool>* cancel) {
+  return ZeroSearch(function, upper, line, resolution, cancel).zeros;
 }
 
 }  // namespace strutt

@@ -122,8 +122,9 @@ class ChangeFinder {
 
 }  // namespace
 
-StabilityLine::StabilityLine(const Scene& scene, const std::string& path, bool multipliers)
-    : scene_(scene), value_(&parameter(scene_, path)), multipliers_(multipliers) {}
+StabilityLine::StabilityLine(MonodromyEngine& engine, const Scene& scene, const std::string& path,
+                             bool multipliers)
+    : engine_(engine), scene_(scene), value_(&parameter(scene_, path)), multipliers_(multipliers) {}
 
 const StabilityLine::Point& StabilityLine::at(double parameter) {
   if (const auto found = known_.find(parameter); found != known_.end()) return found->second;

@@ -25,14 +25,14 @@ class StabilityLine {
     bool stable() const { return margin.value > margin.error; }
   };
 
-  /// `multipliers`: whether they are wanted.
-  StabilityLine(const Scene& scene, const std::string& path, bool multipliers);
+  /// `multipliers`: whether they are wanted. The engine keeps its plans from line to line.
+  StabilityLine(MonodromyEngine& engine, const Scene& scene, const std::string& path, bool multipliers);
   StabilityLine(const StabilityLine&) = delete;
 
   const Point& at(double parameter);
 
  private:
-  MonodromyEngine engine_;
+  MonodromyEngine& engine_;
   Scene scene_;
   double* value_;
   bool multipliers_;

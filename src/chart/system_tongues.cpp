@@ -39,11 +39,11 @@ void add_width(TongueEdge& low, TongueEdge& high, double errors) {
 
 }  // namespace
 
-std::vector<TongueEdge> system_tongues(const Scene& scene, const TongueLine& along,
+std::vector<TongueEdge> system_tongues(MonodromyEngine& engine, const Scene& scene, const TongueLine& along,
                                        const TongueOptions& options) {
-  StabilityLine line(scene, along.parameter, true);
-  const auto changes =
-      stability_changes(line, along.from, along.to, {.steps = kSystemSteps, .cancel = options.cancel});
+  StabilityLine line(engine, scene, along.parameter, true);
+  const auto changes = stability_changes(line, along.from, along.to,
+                                         {.steps = options.system_steps, .cancel = options.cancel});
   std::vector<TongueEdge> edges;
   int crossing = 0;
   for (std::size_t i = 0; i < changes.size(); ++i) {

@@ -3,12 +3,13 @@
 #include <vector>
 
 #include "strutt/chart/tongues.hpp"
+#include "strutt/floquet/monodromy.hpp"
 
 namespace strutt {
 
 /// tongues() of a system that is no equation of second order: where the line enters and leaves what is
 /// unstable, as seen from kSystemSteps + 1 points, with the multiplier that leaves the unit circle there.
-std::vector<TongueEdge> system_tongues(const Scene& scene, const TongueLine& line,
+std::vector<TongueEdge> system_tongues(MonodromyEngine& engine, const Scene& scene, const TongueLine& line,
                                        const TongueOptions& options);
 
 }  // namespace strutt

@@ -59,9 +59,10 @@ void place(const TongueWidth& width, TongueEdge& low, TongueEdge& high) {
 }  // namespace
 
 std::vector<Stretch> TongueOnLine::stretches() {
-  std::vector<EdgeZero> zeros = edge_zeros(function_, true, line_, options_.cancel);
+  std::vector<EdgeZero> zeros = edge_zeros(function_, true, line_, options_.resolution, options_.cancel);
   if (function_.order() > 0)
-    std::ranges::move(edge_zeros(function_, false, line_, options_.cancel), std::back_inserter(zeros));
+    std::ranges::move(edge_zeros(function_, false, line_, options_.resolution, options_.cancel),
+                      std::back_inserter(zeros));
   order_twins(zeros, 1e-9 * (line_.to - line_.from));
   if (zeros.empty() && inside(line_.from)) return {{std::nullopt, std::nullopt}};
   return stretches_between(zeros, function_.order());
@@ -79,7 +80,7 @@ std::vector<TongueEdge> TongueOnLine::edges() {
     const std::size_t first = result.size();
     if (stretch.begin) result.push_back(edge(*stretch.begin, false, crossing));
     if (stretch.end) result.push_back(edge(*stretch.end, true, crossing));
-    if (function_.order() > 0) add_width(stretch, result, first);
+    if (function_.order() > 0 && options_.widths) add_width(stretch, result, first);
     ++crossing;
   }
   return result;
@@ -87,7 +88,8 @@ std::vector<TongueEdge> TongueOnLine::edges() {
 
 TongueEdge TongueOnLine::edge(const EdgeZero& zero, bool upper, int crossing) {
   const double p = zero.position, size = std::max(1.0, std::abs(p));
-  const auto slope = function_.slope(zero.upper, p, p, line_);
+  // with one V all along the line F is the mean but for a constant, and a secant is enough
+  const auto slope = line_equation_.one_variation() ? std::nullopt : function_.slope(zero.upper, p, p, line_);
   const double steepness = slope ? std::abs(slope->value) : secant(zero);
   const auto& value = function_.at(p);
   const double off = std::abs(value.below(zero.upper)) + value.error(zero.upper);
@@ -97,7 +99,7 @@ TongueEdge TongueOnLine::edge(const EdgeZero& zero, bool upper, int crossing) {
       .upper = upper,
       .crossing = crossing,
       .position = p,
-      .error = (distance * (1.0 + 1e-9) + kUnit * std::abs(p)) / size,
+      .error = (distance * (slope ? 1.0 + 1e-9 : 1.01) + kUnit * std::abs(p)) / size,
       .mechanism = function_.order() % 2 == 0 ? Mechanism::plus_one : Mechanism::minus_one,
       .method = value.point.variation.is_piecewise_constant() && !value.point.variation.is_constant()
                     ? Method::exact

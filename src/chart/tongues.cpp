@@ -5,10 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "chart/damped_tongue.hpp"
 #include "chart/edge_function.hpp"
 #include "chart/system_tongues.hpp"
-#include "chart/tongue_on_line.hpp"
+#include "chart/tongues_of_order.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/floating_point.hpp"
 
@@ -29,11 +28,6 @@ void validate(const Scene& scene, const TongueLine& line) {
 /// Both ends of the line and its middle.
 std::array<double, 3> samples_of(const TongueLine& line) {
   return {line.from, std::midpoint(line.from, line.to), line.to};
-}
-
-bool damped(const Scene& scene, const TongueLine& line) {
-  LineEquation equation(scene, line);
-  return std::ranges::any_of(samples_of(line), [&](double p) { return equation.half_damping(p) > 0.0; });
 }
 
 bool is_square(const Scene& scene, const TongueLine& line) {
@@ -68,7 +62,7 @@ bool has_tongue_index(const Scene& scene, const TongueLine& line) {
 Method tongue_method(const Scene& scene, const TongueLine& line) {
   if (!has_tongue_index(scene, line)) return Method::propagator;
   if (is_square(scene, line)) return Method::exact;
-  return damped(scene, line) ? Method::propagator : Method::fourier;
+  return is_damped(scene, line) ? Method::propagator : Method::fourier;
 }
 
 void require_tongue_line(const Scene& scene, const TongueLine& line) {
@@ -96,23 +90,15 @@ std::vector<TongueEdge> tongues(const Scene& scene, const TongueLine& line, cons
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.count >= 0 && options.count <= kLargestTongue + 1, "count", options.count, "0 to 1001");
+  MonodromyEngine engine;
   if (!has_tongue_index(scene, line)) {
     require(options.count == 0, "count", options.count, "0 where tongues have no index");
-    return system_tongues(scene, line, options);
+    return system_tongues(engine, scene, line, options);
   }
-  LineEquation equation(scene, line);
-  if (change_between(equation.at(line.from), equation.at(line.to)) == 0.0)
-    return {};  // one equation all along
-  std::optional<StabilityLine> verdicts;
-  if (damped(scene, line)) verdicts.emplace(scene, line.parameter, false);
   const int count = options.count > 0 ? options.count : tongue_count(scene, line);
+  TonguesOfOrder of(engine, scene, line, options);
   std::vector<TongueEdge> result;
-  for (int order = 0; order < count; ++order) {
-    TongueOnLine tongue(equation, order, line, options);
-    std::ranges::move(
-        verdicts ? DampedTongue(equation, tongue, *verdicts, line, options).edges() : tongue.edges(),
-        std::back_inserter(result));
-  }
+  for (int order = 0; order < count; ++order) std::ranges::move(of.edges(order), std::back_inserter(result));
   return result;
 }
 

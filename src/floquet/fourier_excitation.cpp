@@ -13,7 +13,8 @@ constexpr double kLargestNorm = 1e6;
 
 void require_harmonics(const PeriodicFunction& coefficient) {
   if (coefficient.harmonics().empty() && !coefficient.is_constant())
-    throw InvalidInput("coefficient", "a square wave or an antiderivative of one", "finitely many harmonics");
+    throw InvalidInput("coefficient", "an antiderivative of a square wave, or one where harmonics are needed",
+                       "finitely many harmonics");
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace strutt::detail {
 namespace {
 
-constexpr double kTailShare = 0.2;     // of the tolerance: what becomes of a tail on its way, found by trial
+constexpr double kTailShare = 0.05;     // of the tolerance: what becomes of a tail on its way, found by trial
 constexpr double kGreatestStep = 7.0;  // r sqrt|W|; more is never cheaper
 constexpr double kSmallestStep = 1.2;  // less does not reduce rounding much
 constexpr int kMostSteps = 16;         // whose nodes are looked at one by one

@@ -1,8 +1,10 @@
 // The command `strutt tongues`: columns, JSON, files, exit codes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "io/scratch.hpp"
@@ -134,6 +136,52 @@ TEST_CASE("tongues of damped scenes, square waves and systems", "[apps][tongues]
     CHECK(rows[i][8] == (i == 3 || i == 4 ? "complex" : "-1"));
   }
   CHECK(coupled.run("linear.period=1.8:3.4", {"--count", "2"}).code == 2);
+}
+
+TEST_CASE("tongues --over writes curves, and draws them", "[apps][tongues]") {
+  const Command command("[mathieu]\nepsilon = 0.5\ndamping = 0.1\n");
+  const auto picture = command.write("curves.svg", "");
+  const Result result =
+      command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:2", "--figure", picture});
+  CHECK(result.code == 0);
+  const auto rows = csv_rows(result.out);
+  REQUIRE(rows.size() > 50);
+  CHECK(rows[0] ==
+        Words{"n", "curve", "edge", "mathieu.delta", "mathieu.epsilon", "error", "method", "outcome"});
+  CHECK(csv_comment(result.out, "units") == "1,1,,1,1,1,,");
+  CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row[2] == "tip"; }) == 2);
+  std::ifstream file(picture);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK_THAT(text, Catch::Matchers::Contains("</svg>"));
+  CHECK_THAT(text, Catch::Matchers::Contains("n = 2"));
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.delta=0:2"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=2"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:1", "--chord", "1"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:1", "--growth"}).code == 2);
+  CHECK(command.run("mathieu.delta=-1:2", {"--figure", picture}).code == 2);
+}
+
+TEST_CASE("the figure of a chart has the edges of its tongues, or does without", "[apps][tongues][figure]") {
+  const ScratchDirectory directory;
+  const auto picture_of = [&](const std::string& scene, const Words& axes) {
+    const auto path = (directory.path() / "scene.toml").string();
+    const auto figure = (directory.path() / "figure.svg").string();
+    std::ofstream(path) << scene;
+    Words words{"chart", path, "-o", (directory.path() / "chart.npz").string(), "--figure", figure};
+    words.insert(words.end(), axes.begin(), axes.end());
+    CHECK(strutt(words).code == 0);
+    std::ifstream file(figure);
+    return std::string{std::istreambuf_iterator<char>(file), {}};
+  };
+  using Catch::Matchers::Contains;
+  CHECK_THAT(picture_of("[mathieu]\ndelta = 1\n",
+                        {"--x", "mathieu.delta=-1.03:5:21", "--y", "mathieu.epsilon=0.1:5:11"}),
+             Contains("tongue edges"));
+  const auto system = picture_of(
+      "[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1.3, -0.3], [-0.3, 2.3]], "
+      "harmonics = [{ order = 1, cos = [[0.4, 0], [0, 0]] }] }\n",
+      {"--x", "linear.period=2.61:3.07:11", "--y", "linear.stiffness.harmonics.1.cos.0.0=0.31:0.83:9"});
+  CHECK_THAT(system, Contains("edge of stability") && !Contains("tongue edges"));
 }
 
 TEST_CASE("a scene that has no tongues at all is a mistake of the file", "[apps][tongues]") {

@@ -21,7 +21,7 @@ Scene mathieu_scene(double delta, double epsilon, double damping) {
 
 Stability stability_at(Scene scene, const std::string& path, double value) {
   parameter(scene, path) = value;
-  MonodromyEngine engine;
+  static MonodromyEngine engine;
   return analyse(engine, linear_model(scene), {.tolerance = 1e-13}, {.winding = true, .matrix = false});
 }
 

@@ -18,7 +18,7 @@ Scene mathieu_scene(double delta, double epsilon) {
 
 Verdict verdict_at(Scene scene, const std::string& path, double value) {
   parameter(scene, path) = value;
-  MonodromyEngine engine;
+  static MonodromyEngine engine;  // it keeps its plans
   return analyse(engine, linear_model(scene), {.tolerance = 1e-12}).verdict;
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("no wrong verdict among a million points beside the edges and no bound
     const HillEdges edges(epsilon, region.last);
     std::vector<double> delta(1000);
     std::generate(delta.begin(), delta.end(), [&] { return points.delta(edges, epsilon); });
-    const auto found = verdicts(engine, delta, epsilon, {.tolerance = 1e-12, .method = Method::propagator});
+    const auto found = verdicts(engine, delta, epsilon, {.tolerance = 1e-13, .method = Method::propagator});
     for (std::size_t k = 0; k < delta.size(); ++k) tally.add(found[k], edges.at(delta[k]));
     largest = std::max(largest, excess(engine, delta, epsilon, found));
   }

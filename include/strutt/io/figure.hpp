@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
+#include "strutt/chart/tongue_curves.hpp"
 #include "strutt/io/chart_file.hpp"
 
 namespace strutt {
@@ -24,6 +26,9 @@ class ChartFigure {
   static std::vector<Layer> layers();
 
   void add(const ChartStrip& strip);
+
+  /// The edges of tongues with x along and y over (tongue_curves), drawn on top, however thin the tongues are.
+  void set_tongues(const std::vector<TongueCurve>& curves);
   void commit();  ///< runs gnuplot and moves the picture into place
 
  private:

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "strutt/chart/tongue_curves.hpp"
+#include "strutt/floquet/monodromy.hpp"
+
+namespace strutt {
+
+/// All edges of one tongue on a line at one value of the second parameter, in their order along the line.
+struct Slice {
+  struct Edge {
+    TongueEdge edge;
+    bool interpolated = false;  ///< not on the curve, only near it
+  };
+  double over = 0.0;
+  std::vector<Edge> edges;
+};
+
+bool same_pattern(const Slice& a, const Slice& b);
+
+/// A slice without the edges `first` and first + 1.
+Slice without_pair(Slice slice, std::size_t first);
+
+/// Slices of a tongue, or of a system (kNoOrder).
+class SliceSource {
+ public:
+  SliceSource(const Scene& scene, const TongueLine& along, const TongueLine& over, int order,
+              const CurveOptions& options)
+      : scene_(scene), along_(along), over_(over), order_(order), options_(options) {}
+
+  Slice at(double over);  ///< throws NumericalFailure after max_slices
+  double resolution() const { return options_.resolution; }
+  const TongueLine& along() const { return along_; }
+  const TongueLine& over() const { return over_; }
+
+ private:
+  MonodromyEngine engine_;
+  Scene scene_;
+  const TongueLine& along_;
+  const TongueLine& over_;
+  int order_;
+  const CurveOptions& options_;
+  int slices_ = 0;
+};
+
+/// Where a pair of neighbouring edges comes into being.
+struct CurveTip {
+  double along, over, error;  ///< error of `over`, absolute
+};
+
+/// Between `none`, a value of the second parameter without the pair, and the slice `with` it: the square of
+/// the distance of the pair, linear next to the tip, leads there; the tip is enclosed by slices without and
+/// with the pair.
+CurveTip find_tip(SliceSource& source, double none, const Slice& with, std::size_t pair);
+
+}  // namespace strutt

@@ -1,0 +1,168 @@
+#include "strutt/chart/tongue_curves.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "strutt/base/error.hpp"
+#include "strutt/floquet/stability.hpp"
+
+namespace strutt::test {
+namespace {
+
+using std::numbers::pi;
+
+Scene mathieu_scene(double damping) {
+  Scene scene;
+  scene.mathieu = MathieuTable{.delta = 1.0, .epsilon = 0.5, .damping = damping};
+  return scene;
+}
+
+std::vector<CurvePoint> points_of(const std::vector<TongueCurve>& curves, int order) {
+  std::vector<CurvePoint> points;
+  for (const TongueCurve& curve : curves)
+    if (curve.order == order) points.insert(points.end(), curve.points.begin(), curve.points.end());
+  return points;
+}
+
+std::vector<CurvePoint> tips_of(const std::vector<TongueCurve>& curves) {
+  std::vector<CurvePoint> tips;
+  for (const TongueCurve& curve : curves)
+    std::ranges::copy_if(curve.points, std::back_inserter(tips),
+                         [](const CurvePoint& p) { return p.kind == CurvePoint::Kind::tip; });
+  return tips;
+}
+
+Margin margin_at(double delta, double epsilon, double damping) {
+  static MonodromyEngine engine;
+  const auto s = analyse(engine, mathieu_delta_epsilon(delta, epsilon, damping), {.tolerance = 1e-13});
+  return {s.margin, s.margin_error};
+}
+
+}  // namespace
+
+TEST_CASE("curves of Mathieu's tongues are the characteristic values", "[chart][tongues]") {
+  const auto curves =
+      tongue_curves(mathieu_scene(0.0), {"mathieu.delta", -6.0, 9.5}, {"mathieu.epsilon", 0.1, 5.0});
+  for (int n = 0; n <= 5; ++n) {
+    const auto points = points_of(curves, n);
+    CHECK(points.size() >= 16);
+    for (const CurvePoint& p : points) {
+      const auto pair = characteristic_values(n, n, 2.0 * p.over).front();
+      const double expected = 0.25 * (p.kind == CurvePoint::Kind::upper ? pair.a.value : pair.b->value);
+      CHECK(std::abs(p.along - expected) <= 1e-14 * std::max(1.0, std::abs(expected)));
+    }
+  }
+  CHECK(std::ranges::count_if(curves, [](const auto& c) { return c.order == 3; }) == 2);
+  CHECK(tips_of(curves).empty());
+}
+
+TEST_CASE("between its points a curve is as straight as was asked for", "[chart][tongues]") {
+  for (const double chord : {1e-2, 1e-4}) {
+    const TongueLine along{"mathieu.delta", -1.0, 5.0}, over{"mathieu.epsilon", 0.0, 5.0};
+    const auto curves = tongue_curves(mathieu_scene(0.1), along, over, {.chord = chord});
+    CHECK(curves.size() >= 4);
+    for (const TongueCurve& curve : curves)
+      for (std::size_t i = 1; i < curve.points.size(); ++i) {
+        const CurvePoint &p = curve.points[i - 1], &q = curve.points[i];
+        const double u = (q.along - p.along) / 6.0, v = (q.over - p.over) / 5.0, length = std::hypot(u, v);
+        if (std::abs(v) < 0.3 * length) continue;
+        Scene scene = mathieu_scene(0.1);
+        parameter(scene, "mathieu.epsilon") = 0.5 * (p.over + q.over);
+        double nearest = HUGE_VAL;
+        for (const TongueEdge& edge : tongues(scene, along, {.count = curve.order + 1}))
+          if (edge.order == curve.order)
+            nearest = std::min(nearest, std::abs(edge.position - 0.5 * (p.along + q.along)) / 6.0);
+        CAPTURE(chord, curve.order, p.along, p.over, q.along, q.over);
+        CHECK(nearest * std::abs(v) / length <= 1.1 * chord);
+      }
+  }
+}
+
+TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues]") {
+  const double c = 0.05;
+  const auto curves =
+      tongue_curves(mathieu_scene(c), {"mathieu.delta", -0.5, 5.0}, {"mathieu.epsilon", 0.0, 5.0});
+  const auto tips = tips_of(curves);
+  REQUIRE(tips.size() >= 3);
+  // n = 1: epsilon = c, n = 2: epsilon^2/2 = 2 c, each to lowest order
+  CHECK(tips[0].over == Approx(c).epsilon(2e-3));
+  CHECK(tips[0].along == Approx(0.25).epsilon(1e-2));
+  CHECK(tips[1].over == Approx(std::sqrt(4.0 * c)).epsilon(0.1));
+  for (const CurvePoint& tip : tips) {
+    CHECK(tip.error <= 1e-12);
+    CHECK(tip.outcome == Outcome::converged);
+    // no instability below it, near it; instability above it
+    double below = HUGE_VAL, above = HUGE_VAL;
+    for (int i = -100; i <= 100; ++i) {
+      const double delta = tip.along + 1e-6 * i;
+      below = std::min(below, margin_at(delta, tip.over * (1.0 - 1e-9), c).value);
+      above = std::min(above, margin_at(delta, tip.over * (1.0 + 1e-9), c).value);
+    }
+    CHECK(below > 0.0);
+    CHECK(above < 0.0);
+  }
+  // one curve down one side and up the other
+  const auto first = std::ranges::find(curves, 1, &TongueCurve::order);
+  REQUIRE(first != curves.end());
+  CHECK(std::ranges::count(curves, 1, &TongueCurve::order) == 1);
+  CHECK(first->points.front().kind != first->points.back().kind);
+  bool passed = false;
+  for (std::size_t i = 1; i < first->points.size(); ++i) {
+    passed = passed || first->points[i - 1].kind == CurvePoint::Kind::tip;
+    CHECK((first->points[i].over > first->points[i - 1].over) == passed);
+  }
+}
+
+TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongues]") {
+  // the upper edge of tongue 2, a_2(2 epsilon)/4, has a maximum
+  const auto curves =
+      tongue_curves(mathieu_scene(0.0), {"mathieu.epsilon", 0.1, 8.0}, {"mathieu.delta", 0.5, 3.0});
+  double most = 0.0, where = 0.0;
+  for (int i = 0; i <= 80'000; ++i) {
+    const double epsilon = 1e-4 * i, a = 0.25 * characteristic_values(2, 2, 2.0 * epsilon).front().a.value;
+    if (a > most) most = a, where = epsilon;
+  }
+  bool found = false;
+  for (const CurvePoint& tip : tips_of(curves)) {
+    if (std::abs(tip.over - most) > 1e-6) continue;
+    found = true;
+    CHECK(tip.over == Approx(most).epsilon(1e-9));
+    CHECK(tip.along == Approx(where).epsilon(1e-3));
+  }
+  CHECK(found);
+}
+
+TEST_CASE("curves of systems carry their mechanism", "[chart][tongues]") {
+  Scene scene;
+  LinearPeriodicSystem system{.mass = Eigen::Matrix2d::Identity(), .damping = {}, .stiffness = {}};
+  Eigen::Matrix2d mean, cosine;
+  mean << 1.0, 0.0, 0.0, 2.0;
+  cosine << 0.0, 0.2, 0.2, 0.0;
+  system.stiffness.mean = mean;
+  system.stiffness.harmonics = {{1, cosine, Eigen::Matrix2d::Zero()}};
+  system.damping.mean = 0.02 * system.mass;
+  scene.linear = system;
+  const double at = 2.0 * pi / (1.0 + std::sqrt(2.0));
+  // damping c M closes the combination resonance at the width c in frequency over sqrt(b12 b21/(w1 w2))
+  const auto curves = tongue_curves(scene, {"linear.period", at - 0.3, at + 0.3},
+                                    {"linear.damping.mean.0.0", 0.01, 0.03}, {.tolerance = 1e-6});
+  for (const TongueCurve& curve : curves)
+    for (const CurvePoint& p : curve.points) CHECK(p.mechanism == Mechanism::complex_pair);
+  CHECK_FALSE(curves.empty());
+  CHECK(curves.front().order == kNoOrder);
+}
+
+TEST_CASE("tongue_curves refuses what makes no window", "[chart][tongues]") {
+  const Scene scene = mathieu_scene(0.0);
+  const TongueLine along{"mathieu.delta", 0.0, 1.0}, over{"mathieu.epsilon", 0.0, 1.0};
+  CHECK_THROWS_AS(tongue_curves(scene, along, along), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, {"mathieu.epsilon", 1.0, 0.0}), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, over, {.chord = 1e-7}), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, over, {.tolerance = 1.0}), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, over, {.slices = 0}), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, {"mathieu.damping", -1.0, 0.0}), InvalidInput);
+}
+
+}  // namespace strutt::test
