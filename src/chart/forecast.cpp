@@ -63,7 +63,7 @@ PointForecast forecast_hill(MonodromyEngine& engine, const HillEquation& equatio
   add_cost(result, engine.compute(equation, series).cost);
   if (result.steps > 0.0) {
     const double terms = result.right_hand_sides / result.steps;
-    result.order = 2 * static_cast<int>(0.5 * terms) - 2;
+    result.order = 2 * static_cast<int>(std::lround(terms)) - 4;
     result.seconds = kCosts.hill_term * series_work(result.steps, terms);
   }
   result.seconds += kCosts.hill_point;

@@ -43,7 +43,7 @@ TEST_CASE("Multipliers of a 2 x 2 system: product, sum, order", "[floquet][multi
                    8e-15);
       const double size = std::max(1.0, std::abs(result.discriminant));
       check_within("sum of two multipliers against the trace (scaled)",
-                   std::abs(sum - result.discriminant) / size, 6e-15);
+                   std::abs(sum - result.discriminant) / size, 1e-14);
       CHECK(std::abs(result.multipliers[0]) >= std::abs(result.multipliers[1]) * (1.0 - 1e-15));
       CHECK(std::log(std::abs(result.multipliers[0])) == Approx(result.growth).margin(1e-12));
       if (result.multipliers[0].imag() != 0.0) CHECK(result.multipliers[0].imag() > 0.0);

@@ -117,7 +117,7 @@ TEST_CASE("Meissner's equation agrees with its closed form by both routes",
       if (method == Method::exact)
         check_within("N19 D of Meissner's equation in closed form (scaled)", error, 5e-15);
       if (method == Method::propagator)
-        check_within("N19 D of Meissner's equation by the propagator (scaled)", error, 6e-12);
+        check_within("N19 D of Meissner's equation by the propagator (scaled)", error, 2e-11);
       CHECK(result.error <= (method == Method::exact ? 1e-12 : 1e-9));
     }
   }

@@ -18,7 +18,7 @@ struct PointForecast {
   double seconds = 0.0;               ///< of one thread, with what else is asked for
 
   /// Order of the propagator's method, from the work of a step (even; 0 without steps): of Hill equations
-  /// with as many terms of the series less two, of systems with order (order + 1)/2 products.
+  /// twice the terms of a series less four, of systems with order (order + 1)/2 products.
   int order = 0;
 };
 
