@@ -174,7 +174,6 @@ class Sinks {
         const ChartRequest& computed)
       : layers_(description.request.layers.size()), writer_(writer_for(arguments, description)) {
     if (!arguments.figure) return;
-    require_gnuplot(*arguments.figure);
     ChartDescription all = description;
     all.request = computed;
     figure_.emplace(*arguments.figure, all);
@@ -238,8 +237,7 @@ void summarise(const ChartArguments& arguments, const ChartSummary& summary, con
 ExitCode run(const ChartArguments& arguments) {
   const SceneFile scene = load_scene(arguments);
   const ChartRequest request = request_of(arguments, scene);
-  if (arguments.figure && arguments.figure == arguments.output)
-    throw UsageError("-o and --figure name the same file");
+  require_two_files(arguments.output, arguments.figure);
   const ChartRequest computed = arguments.figure ? with_figure_layers(request) : request;
   const ChartPlan plan = plan_of(arguments, scene, computed);
   if (arguments.dry_run) {

@@ -13,7 +13,6 @@
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/free_pendulum/period_formulas.hpp"
-#include "strutt/io/figure.hpp"
 #include "strutt/io/period_figure.hpp"
 #include "terminal.hpp"
 
@@ -39,7 +38,7 @@ void check_flags(const PeriodArguments& arguments) {
   if (arguments.scene.empty() && !arguments.set.empty()) throw UsageError("--set goes with --scene only");
   if (!arguments.figure) return;
   if (!arguments.compare || !arguments.points) throw UsageError("--figure goes with --points and --compare");
-  if (arguments.figure == arguments.output) throw UsageError("-o and --figure name the same file");
+  require_two_files(arguments.output, arguments.figure);
 }
 
 /// The scene, if there is one: a pendulum on which nothing but gravity acts.
@@ -144,13 +143,6 @@ void check_samples(const std::vector<PeriodSample>& samples, const std::string& 
                     "--figure needs librations of two amplitudes or more");
 }
 
-/// Opens the figure before anything is computed.
-std::optional<PeriodFigure> figure_of(const PeriodArguments& arguments) {
-  if (!arguments.figure) return std::nullopt;
-  require_gnuplot(*arguments.figure);
-  return std::optional<PeriodFigure>(std::in_place, *arguments.figure);
-}
-
 /// The double next to pi is often meant for pi itself, where the period is infinite.
 void warn_about_pi(const PeriodArguments& arguments, const Orbits& orbits) {
   const bool amplitudes = std::string_view(orbits.input->column) == "amplitude";
@@ -194,7 +186,8 @@ ExitCode run(const PeriodArguments& arguments) {
   install_signal_handlers();
   const auto samples = arguments.figure ? samples_of(orbits) : std::vector<PeriodSample>{};
   if (arguments.figure) check_samples(samples, *arguments.points);
-  auto figure = figure_of(arguments);
+  std::optional<PeriodFigure> figure;
+  if (arguments.figure) figure.emplace(*arguments.figure);
   RowWriter writer(row_path(arguments), arguments.json, columns_of(orbits, wanted.compare),
                    provenance_of(arguments, scene, method, wanted.tolerance));
   const ExitCode code = write_rows(writer, orbits, alpha, wanted);

@@ -61,7 +61,7 @@ void check_flags(const PortraitArguments& a, bool excited) {
     refuse(a.starts, "--starts", excited_only);
     if (a.amplitudes || a.excesses) refuse(a.curves, "--curves", "excludes --amplitudes and --excesses");
   }
-  if (a.figure && a.figure == a.output) throw UsageError("-o and --figure name the same file");
+  require_two_files(a.output, a.figure);
 }
 
 PortraitOptions levels_of(const PortraitArguments& a, double alpha) {

@@ -61,6 +61,10 @@ void require_one_standard_input(const CommonArguments& arguments, const std::str
     throw UsageError("the scene and " + flag + " cannot both be standard input");
 }
 
+void require_two_files(const std::optional<std::string>& output, const std::optional<std::string>& figure) {
+  if (figure && figure == output) throw UsageError("-o and --figure name the same file");
+}
+
 double quantity_of(const std::string& flag, const std::string& text, const std::string& dimension) {
   return about_flag(flag, [&] { return parse_quantity(text, dimension); });
 }

@@ -25,6 +25,9 @@ SceneFile load_scene(const CommonArguments& arguments);
 void require_one_standard_input(const CommonArguments& arguments, const std::string& flag,
                                 const std::optional<std::string>& table);
 
+/// Throws UsageError if --output and --figure name the same file.
+void require_two_files(const std::optional<std::string>& output, const std::optional<std::string>& figure);
+
 /// The value of a flag, a number or a number with a unit. Throws UsageError naming the flag.
 double quantity_of(const std::string& flag, const std::string& text, const std::string& dimension);
 

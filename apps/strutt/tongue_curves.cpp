@@ -8,7 +8,6 @@
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/io/figure.hpp"
 #include "strutt/io/tongue_figure.hpp"
 #include "terminal.hpp"
 #include "tongue_lines.hpp"
@@ -92,8 +91,7 @@ ExitCode run_tongue_curves(const TonguesArguments& arguments, const SceneFile& s
   const SceneRows rows = scene_rows(arguments, scene.scene, along, {along.parameter, request.over.parameter});
   if (arguments.figure && rows.scenes.size() != 1)
     throw UsageError("--figure draws the curves of one scene, not of a table --at with several rows");
-  if (arguments.figure && arguments.figure == arguments.output)
-    throw UsageError("-o and --figure name the same file");
+  require_two_files(arguments.output, arguments.figure);
   if (arguments.dry_run) {
     const auto text = [](const TongueLine& line) {
       return fmt::format("{} from {} to {}", line.parameter, to_text(line.from), to_text(line.to));
@@ -104,10 +102,7 @@ ExitCode run_tongue_curves(const TonguesArguments& arguments, const SceneFile& s
     return ExitCode::done;
   }
   std::optional<TongueFigure> figure;
-  if (arguments.figure) {
-    require_gnuplot(*arguments.figure);
-    figure.emplace(*arguments.figure);
-  }
+  if (arguments.figure) figure.emplace(*arguments.figure);
   install_signal_handlers();
   RowWriter writer(
       row_path(arguments), arguments.json, columns_of(scene.scene, request, rows),

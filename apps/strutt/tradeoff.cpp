@@ -11,7 +11,6 @@
 #include "strutt/base/error.hpp"
 #include "strutt/base/instruction_set.hpp"
 #include "strutt/floquet/stability.hpp"
-#include "strutt/io/figure.hpp"
 #include "strutt/io/tradeoff_figure.hpp"
 #include "terminal.hpp"
 
@@ -136,8 +135,7 @@ std::size_t warn_about_bounds(const Tradeoff& tradeoff) {
 ExitCode run(const TradeoffArguments& arguments) {
   const SceneFile scene = load_scene(arguments);
   const TradeoffRequest request = request_of(arguments, scene);
-  if (arguments.figure && arguments.figure == arguments.output)
-    throw UsageError("-o and --figure name the same file");
+  require_two_files(arguments.output, arguments.figure);
   if (arguments.dry_run) {
     print_plan(scene, plan_lines(scene, request));
     return ExitCode::done;
@@ -146,10 +144,7 @@ ExitCode run(const TradeoffArguments& arguments) {
 
   install_signal_handlers();
   std::optional<TradeoffFigure> figure;
-  if (arguments.figure) {
-    require_gnuplot(*arguments.figure);
-    figure.emplace(*arguments.figure);
-  }
+  if (arguments.figure) figure.emplace(*arguments.figure);
   RowWriter writer(row_path(arguments), arguments.json, columns(), provenance_of(arguments, scene));
   Progress progress(!arguments.quiet, "measurements");
   const Tradeoff tradeoff = measure_tradeoff(

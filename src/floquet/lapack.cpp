@@ -6,21 +6,51 @@
 
 namespace strutt::lapack {
 
-Eigenvalues eigenvalues(Eigen::MatrixXd matrix) {
+namespace {
+
+/// `left`, `right`: as LAPACK writes them, real and imaginary parts of a pair in two columns.
+Eigenvalues general_eigenvalues(Eigen::MatrixXd& matrix, Eigen::MatrixXd& left, Eigen::MatrixXd& right) {
   if (!matrix.allFinite()) throw NumericalFailure("eigenvalues of a matrix that is not finite");
   const auto n = static_cast<lapack_int>(matrix.rows());
   Eigen::VectorXd real(n), imaginary(n), scale(n), condition(n), separation(n);
-  Eigen::MatrixXd left(n, n), right(n, n);
+  left.resize(n, n);
+  right.resize(n, n);
   lapack_int low = 0, high = 0;
   double norm = 0.0;
   // condition numbers of eigenvalues need both sets of eigenvectors
   const auto info = LAPACKE_dgeevx(LAPACK_COL_MAJOR, 'N', 'V', 'V', 'E', n, matrix.data(), n, real.data(),
-                                   imaginary.data(), left.data(), n, right.data(), n, &low, &high, scale.data(), &norm,
-                                   condition.data(), separation.data());
+                                   imaginary.data(), left.data(), n, right.data(), n, &low, &high,
+                                   scale.data(), &norm, condition.data(), separation.data());
   if (info != 0) throw NumericalFailure("LAPACKE_dgeevx failed, info = " + std::to_string(info));
   Eigenvalues result{Eigen::VectorXcd(n), condition};
   result.values.real() = real;
   result.values.imag() = imaginary;
+  return result;
+}
+
+Eigen::MatrixXcd complex_columns(const Eigen::MatrixXd& packed, const Eigen::VectorXcd& values) {
+  Eigen::MatrixXcd result = Eigen::MatrixXcd::Zero(packed.rows(), packed.cols());
+  result.real() = packed;
+  for (Eigen::Index j = 0; j + 1 < packed.cols(); ++j) {
+    if (values(j).imag() == 0.0) continue;
+    result.col(j).imag() = packed.col(j + 1);
+    result.col(j + 1) = result.col(j).conjugate();
+    ++j;
+  }
+  return result;
+}
+
+}  // namespace
+
+Eigenvalues eigenvalues(Eigen::MatrixXd matrix) {
+  Eigen::MatrixXd left, right;
+  return general_eigenvalues(matrix, left, right);
+}
+
+Eigensystem eigensystem(Eigen::MatrixXd matrix) {
+  Eigen::MatrixXd left, right;
+  Eigenvalues found = general_eigenvalues(matrix, left, right);
+  Eigensystem result{found, complex_columns(left, found.values), complex_columns(right, found.values)};
   return result;
 }
 

@@ -1,10 +1,9 @@
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "floquet/hill_sensitivity.hpp"
+#include "floquet/lapack.hpp"
 
 namespace strutt {
 namespace {
@@ -74,11 +73,13 @@ Eigen::MatrixXd part(const Eigen::MatrixXd& m, Eigen::Index i, Eigen::Index j, E
 /// How fast ln|lambda| changes, of every multiplier with the largest modulus.
 Derivative leading_rate(const Eigen::MatrixXd& m, const Eigen::MatrixXd& dm, double m_error,
                         double dm_error) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(m);
-  if (solver.info() != Eigen::Success) return {};
-  const Eigen::MatrixXcd v = solver.eigenvectors(), left = v.inverse(), rates = left * dm * v;
-  const Eigen::VectorXcd& lambda = solver.eigenvalues();
-  const double most = lambda.cwiseAbs().maxCoeff(), condition = v.norm() * left.norm();
+  if (!m.allFinite() || !dm.allFinite()) return {};
+  const auto [eigenvalues, left, right] = lapack::eigensystem(m);
+  const Eigen::VectorXcd& lambda = eigenvalues.values;
+  // of the matrix of right eigenvectors, whose inverse has rows of length 1/condition(j)
+  const double condition =
+      std::sqrt(static_cast<double>(m.rows())) * eigenvalues.condition.cwiseInverse().norm();
+  const double most = lambda.cwiseAbs().maxCoeff();
   Derivative result{0.0, 0.0};
   double least = HUGE_VAL, largest = -HUGE_VAL;
   for (Eigen::Index j = 0; j < lambda.size(); ++j) {
@@ -86,7 +87,8 @@ Derivative leading_rate(const Eigen::MatrixXd& m, const Eigen::MatrixXd& dm, dou
     double separation = HUGE_VAL;
     for (Eigen::Index k = 0; k < lambda.size(); ++k)
       if (k != j) separation = std::min(separation, std::abs(lambda(k) - lambda(j)));
-    const double rate = (rates(j, j) / lambda(j)).real();
+    const std::complex<double> change = left.col(j).dot(dm * right.col(j)) / left.col(j).dot(right.col(j));
+    const double rate = (change / lambda(j)).real();
     const double error = condition *
                          (dm_error + 2.0 * condition * dm.norm() * m_error / separation +
                           8.0 * kUnit * static_cast<double>(m.rows()) * dm.norm()) /
@@ -116,9 +118,8 @@ Sensitivity system_sensitivity(MonodromyEngine& engine, const LinearPeriodicSyst
   const double rounding = 16.0 * kUnit * static_cast<double>(value.rows());
   result.growth = leading_rate(m, dm, part(error, 0, 0, d).norm() + rounding * m.norm(),
                                part(error, 1, 0, d).norm() + rounding * dm.norm());
-  const double growth =
-      std::log(Eigen::MatrixXcd(m.cast<std::complex<double>>()).eigenvalues().cwiseAbs().maxCoeff()) +
-      static_cast<double>(augmented.matrix.value.exponent) * std::numbers::ln2;
+  const double growth = std::log(lapack::eigenvalues(m).values.cwiseAbs().maxCoeff()) +
+                        static_cast<double>(augmented.matrix.value.exponent) * std::numbers::ln2;
   const double by_period = growth * derivative.period / (system.period * system.period);
   result.growth_per_time = {result.growth.value / system.period - by_period,
                             result.growth.error / system.period + 1e-12 * std::abs(by_period)};

@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "io/chart_writers.hpp"
-#include "io/figure_format.hpp"
+#include "io/figure_file.hpp"
 #include "io/figure_script.hpp"
-#include "io/gnuplot.hpp"
 #include "io/text.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/io/output_file.hpp"
 
 namespace strutt {
 namespace {
@@ -20,11 +18,9 @@ constexpr std::size_t kFewestPixels = 500;
 
 struct ChartFigure::State {
   State(const std::filesystem::path& path, const ChartDescription& d)
-      : target(path), format(figure_format(path)), file(path), description(d), data(d.request), order(d.request) {}
+      : file(path), description(d), data(d.request), order(d.request) {}
 
-  std::filesystem::path target;
-  FigureFormat format;
-  OutputFile file;
+  FigureFile file;
   ChartDescription description;
   FigureData data;
   StripOrder order;
@@ -51,7 +47,7 @@ void ChartFigure::commit() {
   State& state = *state_;
   state.order.finish();
   const FigureData& data = state.data;
-  FigureContent content{.format = state.format, .scale = growth_scale(data), .labels = {}};
+  FigureContent content{.format = state.file.format(), .scale = growth_scale(data), .labels = {}};
   content.repeat = std::max<std::size_t>(1, kFewestPixels / std::max(data.columns(), data.rows()));
 
   const GnuplotRun gnuplot;
@@ -74,10 +70,7 @@ void ChartFigure::commit() {
   content.has_growth_lines = !growth.empty();
   gnuplot.write(kGrowthFile, growth);
 
-  gnuplot.write("figure.gp", figure_script(state.description, data, content));
-  gnuplot.run("figure.gp", state.target);
-  state.file.write(read_file(gnuplot / kPictureFile, kLargestPicture));
-  state.file.commit();
+  state.file.draw(gnuplot, figure_script(state.description, data, content));
 }
 
 }  // namespace strutt

@@ -6,6 +6,10 @@
 
 namespace strutt {
 
+/// Throws InputOutputError naming `figure` unless the program gnuplot is in the PATH: to be asked before a long
+/// computation.
+void require_gnuplot(const std::filesystem::path& figure);
+
 /// A text as gnuplot's single-quoted string: no escapes and no command substitution inside.
 std::string gnuplot_string(std::string_view text);
 

@@ -1,18 +1,12 @@
 #include "strutt/io/portrait_figure.hpp"
 
-#include "io/gnuplot.hpp"
+#include "io/figure_file.hpp"
 #include "io/portrait_script.hpp"
-#include "io/text.hpp"
-#include "strutt/io/output_file.hpp"
 
 namespace strutt {
 
-struct PortraitFigure::State {
-  explicit State(const std::filesystem::path& path) : target(path), format(figure_format(path)), file(path) {}
-
-  std::filesystem::path target;
-  FigureFormat format;
-  OutputFile file;
+struct PortraitFigure::State : FigureFile {
+  using FigureFile::FigureFile;
 };
 
 PortraitFigure::PortraitFigure(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
@@ -26,10 +20,7 @@ void PortraitFigure::draw(const std::vector<PhaseCurve>& curves, const PortraitD
     gnuplot.write(portrait_file(kind), portrait_data(curves, kind));
   }
   gnuplot.write(kArrowsFile, arrow_data(curves, description));
-  gnuplot.write("portrait.gp", portrait_script(curves, description, state_->format));
-  gnuplot.run("portrait.gp", state_->target);
-  state_->file.write(read_file(gnuplot / kPictureFile, kLargestPicture));
-  state_->file.commit();
+  state_->draw(gnuplot, portrait_script(curves, description, state_->format()));
 }
 
 }  // namespace strutt

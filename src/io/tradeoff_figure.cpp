@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/gnuplot.hpp"
-#include "io/text.hpp"
+#include "io/figure_file.hpp"
 #include "io/tradeoff_script.hpp"
 #include "strutt/base/error.hpp"
-#include "strutt/io/output_file.hpp"
 
 namespace strutt {
 
-struct TradeoffFigure::State {
-  explicit State(const std::filesystem::path& path) : target(path), format(figure_format(path)), file(path) {}
-
-  std::filesystem::path target;
-  FigureFormat format;
-  OutputFile file;
+struct TradeoffFigure::State : FigureFile {
+  using FigureFile::FigureFile;
 };
 
 TradeoffFigure::TradeoffFigure(const std::filesystem::path& path) : state_(std::make_unique<State>(path)) {}
@@ -30,10 +24,7 @@ void TradeoffFigure::draw(const Tradeoff& tradeoff, const std::string& title) {
   if (!drawable) throw InvalidInput("a figure of speed and accuracy needs a row with an error");
   const GnuplotRun gnuplot;
   gnuplot.write(kTradeoffFile, tradeoff_data(tradeoff));
-  gnuplot.write("tradeoff.gp", tradeoff_script(tradeoff, title, state_->format));
-  gnuplot.run("tradeoff.gp", state_->target);
-  state_->file.write(read_file(gnuplot / kPictureFile, kLargestPicture));
-  state_->file.commit();
+  state_->draw(gnuplot, tradeoff_script(tradeoff, title, state_->format()));
 }
 
 }  // namespace strutt

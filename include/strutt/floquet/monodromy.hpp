@@ -77,8 +77,8 @@ class MonodromyEngine {
   MonodromyEngine& operator=(MonodromyEngine&&) noexcept;
 
   /// Method::automatic: exact for a piecewise-constant coefficient, else the propagator, and arkode where it would
-  /// take too many steps. The propagator is a power series about the middle of each of a fixed number of steps, of
-  /// Hill equations by integrate/hill_family.hpp, of systems by integrate/taylor_propagator.hpp. The local tolerance of
+  /// take too many steps. The propagator is a power series in each of a fixed number of steps, of Hill equations by
+  /// integrate/hill_family.hpp, of systems by integrate/taylor_propagator.hpp. The local tolerance of
   /// SUNDIALS starts at max(tolerance/100, 1e-14). All are tightened while the error bound is above the tolerance.
   /// Throws InvalidInput for a method that does not fit the equation; numerical trouble is in the result.
   HillMonodromy compute(const HillEquation& equation, const MonodromyOptions& options = {});

@@ -9,10 +9,6 @@
 
 namespace strutt {
 
-/// Throws InputOutputError naming `figure` unless the program gnuplot is in the PATH: to be asked before a long
-/// computation.
-void require_gnuplot(const std::filesystem::path& figure);
-
 /// Draws a chart with gnuplot as PNG, SVG or PDF (by the ending of the path): verdict regions in colour-blind-safe
 /// colours, iso-lines of growth, tongue boundaries (margin = 0), labelled axes with units, legend.
 /// Keeps a reduced copy of the strips (at most about 1000 x 1000 cells), so memory does not grow with the chart.
