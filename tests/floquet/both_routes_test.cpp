@@ -89,7 +89,7 @@ TEST_CASE("both routes agree within their bounds: half-period factors of the pro
 }
 
 TEST_CASE("both routes agree within their bounds at |q| up to 1e8 and orders up to 10000",
-          "[floquet][characteristic][law][extreme][N13][ratchet]") {
+          "[floquet][characteristic][law][extreme][N13][ratchet][slow]") {
   // up to 1e4 turns a period: the bound of a phase is that of its rounding, and no sign is taken for certain
   // too early
   const double largest = largest_disagreement(20, 3.0, 8.0, 10'000, 2);
