@@ -13,6 +13,12 @@
 namespace strutt::app {
 namespace {
 
+/// A flag with a value.
+template <typename Value>
+CLI::Option* add(CLI::App& command, const char* flag, Value& value, const char* text, const char* type) {
+  return command.add_option(flag, value, text)->type_name(type);
+}
+
 /// The flags of every command, with or without a scene.
 void add_output(CLI::App& command, CommonArguments& arguments) {
   command.add_option("--threads", arguments.threads, "number of threads (default: all)")->type_name("N");
@@ -53,18 +59,14 @@ void add_common(CLI::App& command, CommonArguments& arguments, const std::string
 CLI::App* add_chart(CLI::App& app, ChartArguments& arguments) {
   auto* command = app.add_subcommand("chart", "stability chart over two parameters of a scene");
   add_scene(*command, arguments);
-  add_common(*command, arguments, "largest error of trace and M", "surrogate, propagator, cvode, arkode, exact");
-  command
-      ->add_option("--x", arguments.x,
-                   "horizontal axis: parameter path, ends, number of points, :log for a log axis")
-      ->type_name("P=FROM:TO:N[:log]");
-  command->add_option("--y", arguments.y, "vertical axis")->type_name("P=FROM:TO:N[:log]");
-  command
-      ->add_option("--layers", arguments.layers,
-                   "of verdict,growth,winding,discriminant,margin,outcome (default verdict,growth)")
-      ->type_name("A,B");
-  command->add_option("--figure", arguments.figure, "draw the chart as .png, .svg or .pdf")
-      ->type_name("FILE");
+  add_common(*command, arguments, "largest error of trace and M",
+             "surrogate, propagator, cvode, arkode, exact");
+  add(*command, "--x", arguments.x,
+      "horizontal axis: parameter path, ends, number of points, :log for a log axis", "P=FROM:TO:N[:log]");
+  add(*command, "--y", arguments.y, "vertical axis", "P=FROM:TO:N[:log]");
+  add(*command, "--layers", arguments.layers,
+      "of verdict,growth,winding,discriminant,margin,outcome (default verdict,growth)", "A,B");
+  add(*command, "--figure", arguments.figure, "draw the chart as .png, .svg or .pdf", "FILE");
   command->footer(
       std::string(
           "The ending of -o FILE tells the format: .csv, .npy (one layer), .npz, .h5; .json with --json.\n") +
@@ -76,9 +78,8 @@ CLI::App* add_stability(CLI::App& app, StabilityArguments& arguments) {
   auto* command = app.add_subcommand("stability", "verdict, growth, monodromy matrix of one point or many");
   add_scene(*command, arguments);
   add_common(*command, arguments, "largest error of trace and M", "propagator, cvode, arkode, exact");
-  command
-      ->add_option("--points", arguments.points, "CSV file whose header names parameters: one result per row")
-      ->type_name("IN.csv");
+  add(*command, "--points", arguments.points, "CSV file whose header names parameters: one result per row",
+      "IN.csv");
   command->footer(std::string(kStabilityExample) + kExitCodes);
   return command;
 }
@@ -93,11 +94,9 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
   command->add_option("--velocity", arguments.velocity, "angular velocity at t = 0")
       ->required()
       ->type_name("RAD_PER_S");
-  command->add_option("--duration", arguments.duration, "last time, with --samples")->type_name("S");
-  command->add_option("--samples", arguments.samples, "number of times from 0 to the duration, both included")
-      ->type_name("N");
-  command->add_option("--times", arguments.times, "CSV file with a column t (s), any order")
-      ->type_name("IN.csv");
+  add(*command, "--duration", arguments.duration, "last time, with --samples", "S");
+  add(*command, "--samples", arguments.samples, "number of times from 0 to the duration, both included", "N");
+  add(*command, "--times", arguments.times, "CSV file with a column t (s), any order", "IN.csv");
   command->add_flag("--linear", arguments.linear, "the linearised equation");
   command->footer(std::string(kMotionExample) + kExitCodes);
   return command;
@@ -106,24 +105,23 @@ CLI::App* add_motion(CLI::App& app, MotionArguments& arguments) {
 CLI::App* add_portrait(CLI::App& app, PortraitArguments& arguments) {
   auto* command =
       app.add_subcommand("portrait", "phase portrait of a pendulum; sections of it if it is excited");
-  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text,
-                       const char* type) { return command->add_option(flag, value, text)->type_name(type); };
-  command
-      ->add_option("scene", arguments.scene,
-                   "scene file (TOML), - for standard input; without one: the free pendulum with alpha = 1")
-      ->type_name("SCENE");
-  command->add_option("--method", arguments.method, "auto (default), cvode, arkode, exact")->type_name("M");
+  add(*command, "scene", arguments.scene,
+      "scene file (TOML), - for standard input; without one: the free pendulum with alpha = 1", "SCENE");
+  add(*command, "--method", arguments.method, "auto (default), cvode, arkode, exact", "M");
   add_set(*command, arguments);
   add_output(*command, arguments);
-  add("--tolerance", arguments.tolerance, "refused", "T")->group("");
-  add("--cells", arguments.cells, "width of the window in periods of 2 pi (default 3; excited: 1)", "N");
-  add("--curves", arguments.curves, "number of librations (default 7); excited: of starts (default 60)", "N");
-  add("--points", arguments.points, "free: points of a closed curve (default 201)", "N");
-  add("--amplitudes", arguments.amplitudes, "free: amplitudes of the librations", "RAD,...");
-  add("--excesses", arguments.excesses, "free: further levels C1 - 2, < 0 libration, > 0 rotation", "E,...");
-  add("--sections", arguments.sections, "excited: sections of every start (default 300)", "N");
-  add("--starts", arguments.starts, "excited: CSV file with the columns angle, velocity", "IN.csv");
-  add("--figure", arguments.figure, "draw the portrait as .png, .svg or .pdf", "FILE");
+  add(*command, "--tolerance", arguments.tolerance, "refused", "T")->group("");
+  add(*command, "--cells", arguments.cells, "width of the window in periods of 2 pi (default 3; excited: 1)",
+      "N");
+  add(*command, "--curves", arguments.curves,
+      "number of librations (default 7); excited: of starts (default 60)", "N");
+  add(*command, "--points", arguments.points, "free: points of a closed curve (default 201)", "N");
+  add(*command, "--amplitudes", arguments.amplitudes, "free: amplitudes of the librations", "RAD,...");
+  add(*command, "--excesses", arguments.excesses, "free: further levels C1 - 2, < 0 libration, > 0 rotation",
+      "E,...");
+  add(*command, "--sections", arguments.sections, "excited: sections of every start (default 300)", "N");
+  add(*command, "--starts", arguments.starts, "excited: CSV file with the columns angle, velocity", "IN.csv");
+  add(*command, "--figure", arguments.figure, "draw the portrait as .png, .svg or .pdf", "FILE");
   command->footer(
       std::string(
           "The ending of -o FILE tells the format: .csv, .npz, .h5; .json with --json.\n"
@@ -157,7 +155,7 @@ CLI::App* add_characteristic(CLI::App& app, CharacteristicArguments& arguments) 
   command->add_option("--q", arguments.q, "parameters of x'' + (a - 2 q cos 2t) x = 0, -1e8 to 1e8")
       ->required()
       ->type_name("Q[,Q...]");
-  command->add_option("--method", arguments.method, "auto (default), fourier")->type_name("M");
+  add(*command, "--method", arguments.method, "auto (default), fourier", "M");
   command->add_option("--tolerance", arguments.tolerance)->group("");  // refused with its reason
   add_output(*command, arguments);
   command->footer(std::string(kCharacteristicExample) + kExitCodes);
@@ -173,20 +171,18 @@ CLI::App* add_tongues(CLI::App& app, TonguesArguments& arguments) {
   command->add_option("--along", arguments.along, "the parameter that changes, and its range")
       ->required()
       ->type_name("P=FROM:TO");
-  command->add_option("--at", arguments.at, "CSV file whose header names further parameters: a line per row")
-      ->type_name("IN.csv");
-  command->add_option("--count", arguments.count, "tongues n = 0 ... N - 1 (default: all on the line)")->type_name("N");
+  add(*command, "--at", arguments.at, "CSV file whose header names further parameters: a line per row",
+      "IN.csv");
+  add(*command, "--count", arguments.count, "tongues n = 0 ... N - 1 (default: all on the line)", "N");
   command->add_flag("--growth", arguments.growth,
                     "add the largest growth per period between both edges, and where");
-  command->add_option("--over", arguments.over, "a second parameter and its range: the edges as curves")
-      ->type_name("Q=FROM:TO");
-  command
-      ->add_option("--chord", arguments.chord,
-                   "with --over: largest distance of a curve from the line between its points, as part of the "
-                   "window, 1e-6 to 0.1 (default 1e-3)")
-      ->type_name("C");
-  command->add_option("--figure", arguments.figure, "with --over: draw the curves as .png, .svg or .pdf")
-      ->type_name("FILE");
+  add(*command, "--over", arguments.over, "a second parameter and its range: the edges as curves",
+      "Q=FROM:TO");
+  add(*command, "--chord", arguments.chord,
+      "with --over: largest distance of a curve from the line between its points, as part of the "
+      "window, 1e-6 to 0.1 (default 1e-3)",
+      "C");
+  add(*command, "--figure", arguments.figure, "with --over: draw the curves as .png, .svg or .pdf", "FILE");
   command->footer(std::string(kTonguesExample) + kExitCodes);
   return command;
 }
@@ -196,65 +192,51 @@ CLI::App* add_margin(CLI::App& app, MarginArguments& arguments) {
   add_scene(*command, arguments);
   add_common(*command, arguments, "largest error of an edge relative to max(1, |edge|)", "no other",
              "1e-13 to 1e-2 (default 1e-12)");
-  command
-      ->add_option("--parameters", arguments.parameters,
-                   "parameters that change, one by one and jointly (default: all that move the stability)")
-      ->type_name("P,Q,...");
-  const auto add = [&](const char* flag, std::optional<std::string>& value, const char* text, const char* type) {
-    command->add_option(flag, value, text)->type_name(type);
-  };
-  add("--bands", arguments.bands, "instead: the stable and unstable bands of one parameter", "P=FROM:TO");
-  add("--closing-damping", arguments.closing_damping,
+  add(*command, "--parameters", arguments.parameters,
+      "parameters that change, one by one and jointly (default: all that move the stability)", "P,Q,...");
+  add(*command, "--bands", arguments.bands, "instead: the stable and unstable bands of one parameter",
+      "P=FROM:TO");
+  add(*command, "--closing-damping", arguments.closing_damping,
       "instead: the damping that closes each tongue on a line, whatever the scene's", "P=FROM:TO");
-  add("--count", arguments.count, "with --closing-damping: tongues n = 1 ... N - 1 only", "N");
-  add("--box", arguments.box,
+  add(*command, "--count", arguments.count, "with --closing-damping: tongues n = 1 ... N - 1 only", "N");
+  add(*command, "--box", arguments.box,
       "instead: the worst growth per period over uncertain parameters (--tolerance: of it, default 1e-3)",
       "P=FROM:TO,...");
   command->add_flag("--sensitivities", arguments.sensitivities,
                     "instead: derivatives of growth, winding and margin with respect to the parameters");
-  add("--edge", arguments.edge, "with --sensitivities: those of the nearest edge along P too", "P");
+  add(*command, "--edge", arguments.edge, "with --sensitivities: those of the nearest edge along P too", "P");
   command->footer(std::string(kMarginExample) + kExitCodes);
   return command;
 }
 
 CLI::App* add_period(CLI::App& app, PeriodArguments& arguments) {
   auto* command = app.add_subcommand("period", "period of the free pendulum at an amplitude");
-  command->add_option("--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)")
-      ->type_name("SCENE");
+  add(*command, "--scene", arguments.scene, "scene whose pendulum gives alpha (default: alpha = 1)", "SCENE");
   add_common(*command, arguments, "largest relative error of the period", "exact",
              "5e-16 to 1e-1 (default 1e-15)");
-  command->add_option("--amplitude", arguments.amplitude, "largest angle, 0 to 3.141592653589793")
-      ->type_name("RAD");
-  command->add_option("--from-top", arguments.from_top, "pi - amplitude, 0 to pi")->type_name("RAD");
-  command
-      ->add_option("--separatrix-excess", arguments.separatrix_excess,
-                   "(velocity/alpha)^2 - 4 cos^2(angle/2), >= -4: negative librations, positive rotations")
-      ->type_name("E");
-  command
-      ->add_option("--points", arguments.points,
-                   "CSV file with a column amplitude, from_top or separatrix_excess, and alpha if wanted")
-      ->type_name("IN.csv");
+  add(*command, "--amplitude", arguments.amplitude, "largest angle, 0 to 3.141592653589793", "RAD");
+  add(*command, "--from-top", arguments.from_top, "pi - amplitude, 0 to pi", "RAD");
+  add(*command, "--separatrix-excess", arguments.separatrix_excess,
+      "(velocity/alpha)^2 - 4 cos^2(angle/2), >= -4: negative librations, positive rotations", "E");
+  add(*command, "--points", arguments.points,
+      "CSV file with a column amplitude, from_top or separatrix_excess, and alpha if wanted", "IN.csv");
   command->add_flag("--compare", arguments.compare,
                     "add T/T0 by the normal form and by Krylov's technique, each with its true error");
-  command
-      ->add_option("--figure", arguments.figure,
-                   "with --points and --compare: draw periods and errors as .png, .svg or .pdf")
-      ->type_name("FILE");
+  add(*command, "--figure", arguments.figure,
+      "with --points and --compare: draw periods and errors as .png, .svg or .pdf", "FILE");
   command->footer(std::string(kPeriodExample) + kExitCodes);
   return command;
 }
 
 CLI::App* add_tradeoff(CLI::App& app, TradeoffArguments& arguments) {
-  auto* command = app.add_subcommand("tradeoff", "speed and accuracy of every method that fits a scene, measured");
+  auto* command =
+      app.add_subcommand("tradeoff", "speed and accuracy of every method that fits a scene, measured");
   add_scene(*command, arguments);
-  add_common(*command, arguments, "measure at this one only", "propagator, cvode, arkode, exact: this one only",
-             "1e-13 to 1e-2 (default: every decade)");
-  command
-      ->add_option("--samples", arguments.samples,
-                   "points scattered over the box of [chart] (default 64); 0, or no box: the scene as it stands")
-      ->type_name("N");
-  command->add_option("--figure", arguments.figure, "draw speed over accuracy as .png, .svg or .pdf")
-      ->type_name("FILE");
+  add_common(*command, arguments, "measure at this one only",
+             "propagator, cvode, arkode, exact: this one only", "1e-13 to 1e-2 (default: every decade)");
+  add(*command, "--samples", arguments.samples,
+      "points scattered over the box of [chart] (default 64); 0, or no box: the scene as it stands", "N");
+  add(*command, "--figure", arguments.figure, "draw speed over accuracy as .png, .svg or .pdf", "FILE");
   command->footer(std::string("Exit code 1: a result is further from the truth than its error bound.\n") +
                   kTradeoffExample + kExitCodes);
   return command;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rows.hpp"
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
@@ -21,32 +22,6 @@ namespace {
 
 constexpr double kBoxTolerance = 1e-3;
 
-std::string unit_of(const Scene& scene, const std::string& path) {
-  const std::string unit = parameter_info(scene, path).unit;
-  return unit.empty() ? "1" : unit;
-}
-
-/// "P=FROM:TO", the ends with units if wanted.
-ParameterRange range_of(const std::string& flag, const std::string& text, const Scene& scene) {
-  const auto equals = text.find('=');
-  const auto ends = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
-  if (ends.size() != 2) throw UsageError(flag + " '" + text + "': wanted is P=FROM:TO");
-  ParameterRange range{.parameter = text.substr(0, equals)};
-  try {
-    const std::string unit = parameter_info(scene, range.parameter).unit;
-    range.from = quantity_of(flag, ends[0], unit);
-    range.to = quantity_of(flag, ends[1], unit);
-  } catch (const InvalidInput& error) {
-    throw UsageError(flag + " '" + text + "': " + error.what());
-  }
-  return range;
-}
-
-TongueLine line_of(const std::string& flag, const std::string& text, const Scene& scene) {
-  const ParameterRange range = range_of(flag, text, scene);
-  return {range.parameter, range.from, range.to};
-}
-
 /// Calls `answer`, whose complaints are about the flag.
 template <typename Answer>
 auto about(const std::string& flag, const Answer& answer) {
@@ -59,10 +34,6 @@ auto about(const std::string& flag, const Answer& answer) {
 
 void plan(const SceneFile& scene, const std::string& question, double tolerance) {
   print_plan(scene, {question, "method: auto", "tolerance: " + to_text(tolerance)});
-}
-
-std::string text_of(const TongueLine& line) {
-  return fmt::format("{} from {} to {}", line.parameter, to_text(line.from), to_text(line.to));
 }
 
 template <typename Rows>
@@ -92,11 +63,6 @@ Scene on_edge(const Scene& scene, const std::string& path, double& position) {
 }
 
 }  // namespace
-
-Cell number(double x) { return std::isnan(x) ? Cell() : Cell(x); }
-Cell number(const std::optional<double>& x) { return x ? Cell(*x) : Cell(); }
-Cell number(const std::optional<int>& x) { return x ? Cell(static_cast<double>(*x)) : Cell(); }
-Cell word(Method method) { return std::string(to_string(method)); }
 
 void require_one_question(const MarginArguments& arguments) {
   const int asked = arguments.bands.has_value() + arguments.closing_damping.has_value() +
@@ -134,7 +100,7 @@ ExitCode run_bands(const MarginArguments& arguments) {
   install_signal_handlers();
   const auto bands = about("--bands", [&] { return stability_bands(scene.scene, line, options); });
   throw_if_interrupted();
-  const std::string unit = unit_of(scene.scene, line.parameter);
+  const std::string unit = column_unit(scene.scene, line.parameter);
   auto writer = writer_of(arguments, scene, options.tolerance,
                           {{"parameter", ""},
                            {"from", unit},
@@ -172,7 +138,7 @@ ExitCode run_closing_damping(const MarginArguments& arguments) {
                            {"crossing", "1"},
                            {"damping", scene.scene.pendulum ? "1/s" : "1"},
                            {"error", "1"},
-                           {"position", unit_of(scene.scene, line.parameter)},
+                           {"position", column_unit(scene.scene, line.parameter)},
                            {"method", ""},
                            {"outcome", ""}});
   for (const ClosingDamping& row : rows)
@@ -187,8 +153,10 @@ ExitCode run_box(const MarginArguments& arguments) {
   const SceneFile scene = load_scene(arguments);
   WorstGrowthOptions options{.tolerance = tolerance_of(arguments, kBoxTolerance), .cancel = &cancel_flag()};
   std::vector<ParameterRange> box;
-  for (const std::string& text : split(*arguments.box, ','))
-    box.push_back(range_of("--box", text, scene.scene));
+  for (const std::string& text : split(*arguments.box, ',')) {
+    const TongueLine range = line_of("--box", text, scene.scene);
+    box.push_back({range.parameter, range.from, range.to});
+  }
   if (arguments.dry_run) {
     plan(scene, fmt::format("box: {} parameters, at most {} evaluations", box.size(), options.evaluations),
          options.tolerance);
@@ -201,7 +169,7 @@ ExitCode run_box(const MarginArguments& arguments) {
   std::vector<Column> columns{{"growth", "1"}, {"error", "1"}, {"error_kind", ""}};
   std::vector<Cell> row{worst.growth, worst.error, std::string(worst.proved ? "bound" : "estimate")};
   for (std::size_t i = 0; i < box.size(); ++i) {
-    columns.push_back({box[i].parameter, unit_of(scene.scene, box[i].parameter)});
+    columns.push_back({box[i].parameter, column_unit(scene.scene, box[i].parameter)});
     row.emplace_back(worst.at[i]);
   }
   columns.insert(columns.end(), {{"evaluations", "1"}, {"method", ""}, {"outcome", ""}});

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "arguments.hpp"
 #include "exit_code.hpp"
-#include "rows.hpp"
-#include "strutt/base/method.hpp"
 #include "strutt/model/scene.hpp"
 
 /// What `strutt margin` answers instead of the distances.
@@ -23,11 +20,5 @@ ExitCode run_sensitivities(const MarginArguments& arguments);
 
 /// --parameters, or all that move the stability. Throws UsageError.
 std::vector<std::string> parameters_of(const MarginArguments& arguments, const Scene& scene);
-
-/// Cells that are empty for NaN and for nothing.
-Cell number(double x);
-Cell number(const std::optional<double>& x);
-Cell number(const std::optional<int>& x);
-Cell word(Method method);
 
 }  // namespace strutt::app

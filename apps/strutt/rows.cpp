@@ -19,6 +19,11 @@ std::string json_number(double value) {
 
 }  // namespace
 
+Cell number(double x) { return std::isnan(x) ? Cell() : Cell(x); }
+Cell number(const std::optional<double>& x) { return x ? Cell(*x) : Cell(); }
+Cell number(const std::optional<int>& x) { return x ? Cell(static_cast<double>(*x)) : Cell(); }
+Cell word(Method method) { return std::string(to_string(method)); }
+
 RowWriter::RowWriter(const std::filesystem::path& path, bool json, std::vector<Column> columns,
                      const Provenance& provenance)
     : file_(target(path)), json_(json), columns_(std::move(columns)) {

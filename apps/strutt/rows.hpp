@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "strutt/base/method.hpp"
 #include "strutt/io/output_file.hpp"
 #include "strutt/io/provenance.hpp"
 
@@ -20,6 +22,12 @@ struct Column {
 
 /// A number, a word, or nothing.
 using Cell = std::variant<std::monostate, double, std::string>;
+
+/// Cells that are empty for NaN and for nothing.
+Cell number(double x);
+Cell number(const std::optional<double>& x);
+Cell number(const std::optional<int>& x);
+Cell word(Method method);
 
 /// Writes rows as CSV with provenance, or as {"schema_version":1,"provenance":{...},"rows":[{column:
 /// value,...}]}. Numbers read back to the same bits; NaN and infinities are `nan`, `inf`, `-inf`, in JSON as

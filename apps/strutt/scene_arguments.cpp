@@ -61,6 +61,30 @@ void require_one_standard_input(const CommonArguments& arguments, const std::str
     throw UsageError("the scene and " + flag + " cannot both be standard input");
 }
 
+TongueLine line_of(const std::string& flag, const std::string& text, const Scene& scene) {
+  const auto equals = text.find('=');
+  const auto ends = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
+  if (ends.size() != 2) throw UsageError(flag + " '" + text + "': wanted is P=FROM:TO");
+  TongueLine line{.parameter = text.substr(0, equals)};
+  try {
+    const std::string unit = parameter_info(scene, line.parameter).unit;
+    line.from = quantity_of(flag, ends[0], unit);
+    line.to = quantity_of(flag, ends[1], unit);
+  } catch (const InvalidInput& error) {
+    throw UsageError(flag + " '" + text + "': " + error.what());
+  }
+  return line;
+}
+
+std::string text_of(const TongueLine& line) {
+  return line.parameter + " from " + to_text(line.from) + " to " + to_text(line.to);
+}
+
+std::string column_unit(const Scene& scene, const std::string& path) {
+  const std::string unit = parameter_info(scene, path).unit;
+  return unit.empty() ? "1" : unit;
+}
+
 void require_two_files(const std::optional<std::string>& output, const std::optional<std::string>& figure) {
   if (figure && figure == output) throw UsageError("-o and --figure name the same file");
 }

@@ -9,6 +9,7 @@
 #include "arguments.hpp"
 #include "strutt/base/method.hpp"
 #include "strutt/chart/forecast.hpp"
+#include "strutt/chart/tongues.hpp"
 #include "strutt/io/provenance.hpp"
 #include "strutt/io/scene_file.hpp"
 
@@ -24,6 +25,15 @@ SceneFile load_scene(const CommonArguments& arguments);
 /// Throws UsageError if the scene and the table of `flag` are both to be read from standard input.
 void require_one_standard_input(const CommonArguments& arguments, const std::string& flag,
                                 const std::optional<std::string>& table);
+
+/// The line of "P=FROM:TO", each end a number or a number with a unit. Throws UsageError naming the flag.
+TongueLine line_of(const std::string& flag, const std::string& text, const Scene& scene);
+
+/// As a plan says it.
+std::string text_of(const TongueLine& line);
+
+/// The unit of a column with the values of a parameter.
+std::string column_unit(const Scene& scene, const std::string& path);
 
 /// Throws UsageError if --output and --figure name the same file.
 void require_two_files(const std::optional<std::string>& output, const std::optional<std::string>& figure);

@@ -93,10 +93,7 @@ ExitCode run_tongue_curves(const TonguesArguments& arguments, const SceneFile& s
     throw UsageError("--figure draws the curves of one scene, not of a table --at with several rows");
   require_two_files(arguments.output, arguments.figure);
   if (arguments.dry_run) {
-    const auto text = [](const TongueLine& line) {
-      return fmt::format("{} from {} to {}", line.parameter, to_text(line.from), to_text(line.to));
-    };
-    print_plan(scene, {"along: " + text(request.along), "over: " + text(request.over),
+    print_plan(scene, {"along: " + text_of(request.along), "over: " + text_of(request.over),
                        "chord: " + to_text(request.options.chord),
                        "tolerance: " + to_text(request.options.tolerance)});
     return ExitCode::done;

@@ -22,21 +22,6 @@ void require_scene(const TonguesArguments& arguments, const SceneFile& file, con
 
 }  // namespace
 
-TongueLine line_of(const std::string& flag, const std::string& text, const Scene& scene) {
-  const auto equals = text.find('=');
-  const auto ends = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
-  if (ends.size() != 2) throw UsageError(flag + " '" + text + "': wanted is P=FROM:TO");
-  TongueLine line{.parameter = text.substr(0, equals)};
-  try {
-    const std::string unit = parameter_info(scene, line.parameter).unit;
-    line.from = quantity_of(flag, ends[0], unit);
-    line.to = quantity_of(flag, ends[1], unit);
-  } catch (const InvalidInput& error) {
-    throw UsageError(flag + " '" + text + "': " + error.what());
-  }
-  return line;
-}
-
 TongueLine usable_line(const TonguesArguments& arguments, const SceneFile& file) {
   const TongueLine line = line_of("--along", arguments.along, file.scene);
   try {
@@ -73,11 +58,6 @@ SceneRows scene_rows(const TonguesArguments& arguments, const Scene& scene, cons
     lines.scenes.push_back(std::move(changed));
   }
   return lines;
-}
-
-std::string column_unit(const Scene& scene, const std::string& path) {
-  const std::string unit = parameter_info(scene, path).unit;
-  return unit.empty() ? "1" : unit;
 }
 
 }  // namespace strutt::app

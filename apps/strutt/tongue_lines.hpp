@@ -11,9 +11,6 @@
 
 namespace strutt::app {
 
-/// The line of "P=FROM:TO", each end a number or a number with a unit. Throws UsageError naming the flag.
-TongueLine line_of(const std::string& flag, const std::string& text, const Scene& scene);
-
 /// The line of --along, checked against the scene. Throws FileError for a scene that has tongues on no line,
 /// UsageError for a line that does not fit, or a --count where tongues have no index.
 TongueLine usable_line(const TonguesArguments& arguments, const SceneFile& file);
@@ -28,9 +25,6 @@ struct SceneRows {
 /// Throws FileError for rows with which the line does not fit. `taken`: parameters that --at cannot have.
 SceneRows scene_rows(const TonguesArguments& arguments, const Scene& scene, const TongueLine& line,
                      const std::vector<std::string>& taken);
-
-/// The unit of a column with the values of a parameter.
-std::string column_unit(const Scene& scene, const std::string& path);
 
 /// --over: edge curves instead of rows for each edge; the scene and --along have been checked.
 ExitCode run_tongue_curves(const TonguesArguments& arguments, const SceneFile& scene,

@@ -43,7 +43,6 @@ std::vector<Column> columns_of(const Scene& scene, const TongueLine& line, const
 }
 
 std::vector<Cell> cells_of(const std::vector<double>& at, const TongueEdge& edge, const Extras& extras) {
-  const auto number = [](double x) { return std::isnan(x) ? Cell() : Cell(x); };
   std::vector<Cell> row{edge.order == kNoOrder ? Cell() : Cell(static_cast<double>(edge.order)),
                         std::string(edge.upper ? "upper" : "lower")};
   row.insert(row.end(), at.begin(), at.end());
@@ -77,11 +76,10 @@ ExitCode run(const TonguesArguments& arguments) {
   method_of(arguments, "tongues", {method});
   const SceneRows lines = scene_rows(arguments, scene.scene, line, {line.parameter});
   if (arguments.dry_run) {
-    print_plan(
-        scene,
-        {fmt::format("along: {} from {} to {}", line.parameter, to_text(line.from), to_text(line.to)),
-         fmt::format("lines: {}", lines.scenes.size()), "method: " + std::string(to_string(method)),
-         "tolerance: " + to_text(options.tolerance), fmt::format("threads: {}", thread_count(parallel))});
+    print_plan(scene,
+               {"along: " + text_of(line), fmt::format("lines: {}", lines.scenes.size()),
+                "method: " + std::string(to_string(method)), "tolerance: " + to_text(options.tolerance),
+                fmt::format("threads: {}", thread_count(parallel))});
     return ExitCode::done;
   }
   install_signal_handlers();

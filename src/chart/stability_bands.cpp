@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "chart/require_line.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/floating_point.hpp"
@@ -9,32 +10,22 @@
 namespace strutt {
 namespace {
 
-void validate_line(const Scene& scene, const TongueLine& line) {
-  require(std::isfinite(line.from) && std::isfinite(line.to), line.parameter, line.to - line.from,
-          "a finite range");
-  require(line.from < line.to, line.parameter + ": TO", line.to, "above FROM = " + to_text(line.from));
-  Scene changed = scene;
-  for (const double end : {line.from, line.to}) {
-    parameter(changed, line.parameter) = end;
-    validate(changed);
-    static_cast<void>(linear_model(changed));
-  }
+/// The end of the band in `place`, from the edge or, without one, `otherwise`.
+void set_end(StabilityBand& band, double StabilityBand::*place, double StabilityBand::*error,
+             const std::optional<LineEdge>& edge, double otherwise) {
+  band.*place = edge ? edge->position : otherwise;
+  if (!edge) return;
+  band.*error = edge->error;
+  band.method = edge->method;
+  if (edge->outcome != Outcome::converged) band.outcome = edge->outcome;
 }
 
 void set_from(StabilityBand& band, const std::optional<LineEdge>& edge, double otherwise) {
-  band.from = edge ? edge->position : otherwise;
-  if (!edge) return;
-  band.from_error = edge->error;
-  band.method = edge->method;
-  if (edge->outcome != Outcome::converged) band.outcome = edge->outcome;
+  set_end(band, &StabilityBand::from, &StabilityBand::from_error, edge, otherwise);
 }
 
 void set_to(StabilityBand& band, const std::optional<LineEdge>& edge, double otherwise) {
-  band.to = edge ? edge->position : otherwise;
-  if (!edge) return;
-  band.to_error = edge->error;
-  band.method = edge->method;
-  if (edge->outcome != Outcome::converged) band.outcome = edge->outcome;
+  set_end(band, &StabilityBand::to, &StabilityBand::to_error, edge, otherwise);
 }
 
 /// A line that no edge divides.
@@ -57,7 +48,7 @@ std::vector<StabilityBand> stability_bands(const Scene& scene, const TongueLine&
   require(options.tolerance >= 1e-13 && options.tolerance <= 1e-2, "tolerance", options.tolerance,
           "1e-13 to 1e-2");
   require(options.samples >= 2 && options.samples <= 1'000'000, "samples", options.samples, "2 to 1e6");
-  validate_line(scene, line);
+  require_line(scene, line);
   const auto intervals = unstable_intervals(
       scene, line, {.tolerance = options.tolerance, .samples = options.samples, .cancel = options.cancel});
   if (intervals.empty()) return {whole_line(scene, line)};

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "chart/edge_function.hpp"
+#include "chart/require_line.hpp"
 #include "chart/system_tongues.hpp"
 #include "chart/tongues_of_order.hpp"
 #include "strutt/base/error.hpp"
@@ -13,17 +14,6 @@
 
 namespace strutt {
 namespace {
-
-void validate(const Scene& scene, const TongueLine& line) {
-  require(std::isfinite(line.from) && std::isfinite(line.to), line.parameter, line.to - line.from,
-          "a finite range");
-  require(line.from < line.to, line.parameter + ": TO", line.to, "above FROM = " + to_text(line.from));
-  Scene changed = scene;
-  for (const double end : {line.from, line.to}) {
-    parameter(changed, line.parameter) = end;
-    strutt::validate(changed);
-  }
-}
 
 /// Both ends of the line and its middle.
 std::array<double, 3> samples_of(const TongueLine& line) {
@@ -50,7 +40,7 @@ std::string_view to_string(Mechanism mechanism) {
 }
 
 bool has_tongue_index(const Scene& scene, const TongueLine& line) {
-  validate(scene, line);
+  require_line(scene, line);
   if (!scene.linear) return true;
   Scene changed = scene;
   return std::ranges::all_of(samples_of(line), [&](double p) {

@@ -157,8 +157,7 @@ bool is_undamped(const Scene& scene, const TongueLine& line) {
   return true;
 }
 
-/// Is tongues() complete on this line? With damping it finds no edge of a tongue that has none without
-/// damping between the ends of the line.
+/// Is tongues() complete on this line? With damping it is so along the mean of W only.
 bool is_known(const Scene& scene, const TongueLine& line) {
   if (!is_undamped(scene, line)) return false;
   try {

@@ -58,9 +58,6 @@ class MarginLine {
 /// Hill's equation without damping, with finitely many harmonics?
 bool is_undamped_fourier(const LinearModel& model);
 
-/// Hill's equation without damping, with finitely many harmonics?
-bool is_undamped_fourier(const LinearModel& model);
-
 /// The margin of a scene as it stands, as sharp as it can be had.
 MonodromyOptions sharpest();
 

@@ -5,8 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "io/scratch.hpp"
-#include "support/program.hpp"
+#include "support/scene_command.hpp"
 
 namespace strutt::test {
 namespace {
@@ -15,24 +14,10 @@ using Words = std::vector<std::string>;
 
 const char* const kRod = "[pendulum]\nlength = 1\n[support]\nfrequency = 12\namplitude = 0.05\n";
 
-/// A folder with a scene, and the command on it.
-class Command {
+class Command : public SceneCommand {
  public:
-  explicit Command(const std::string& scene = kRod) { write("scene.toml", scene); }
-  std::string write(const std::string& name, const std::string& text) const {
-    const std::string path = (directory_.path() / name).string();
-    std::ofstream(path) << text;
-    return path;
-  }
-  std::string path(const std::string& name) const { return (directory_.path() / name).string(); }
-  Result run(const Words& more = {}) const {
-    Words words{"margin", path("scene.toml")};
-    words.insert(words.end(), more.begin(), more.end());
-    return strutt(words);
-  }
-
- private:
-  ScratchDirectory directory_;
+  explicit Command(const std::string& scene = kRod) : SceneCommand("margin", scene) {}
+  Result run(const Words& more = {}) const { return SceneCommand::run(more); }
 };
 
 double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }

@@ -7,31 +7,22 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "io/scratch.hpp"
-#include "support/program.hpp"
+#include "support/scene_command.hpp"
 
 namespace strutt::test {
 namespace {
 
 using Words = std::vector<std::string>;
 
-/// A folder with a scene, and the command on it.
-class Command {
+class Command : public SceneCommand {
  public:
-  explicit Command(const std::string& scene = "[mathieu]\nepsilon = 0.01\n") { write("scene.toml", scene); }
-  std::string write(const std::string& name, const std::string& text) const {
-    const std::string path = (directory_.path() / name).string();
-    std::ofstream(path) << text;
-    return path;
-  }
+  explicit Command(const std::string& scene = "[mathieu]\nepsilon = 0.01\n")
+      : SceneCommand("tongues", scene) {}
   Result run(const std::string& along, const Words& more = {}) const {
-    Words words{"tongues", (directory_.path() / "scene.toml").string(), "--along", along};
+    Words words{"--along", along};
     words.insert(words.end(), more.begin(), more.end());
-    return strutt(words);
+    return SceneCommand::run(words);
   }
-
- private:
-  ScratchDirectory directory_;
 };
 
 double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
@@ -141,9 +132,8 @@ TEST_CASE("tongues of damped scenes, square waves and systems", "[apps][tongues]
 TEST_CASE("tongues --over writes curves, and draws them", "[apps][tongues]") {
   const Command command("[mathieu]\nepsilon = 0.5\ndamping = 0.1\n");
   const auto picture = command.write("curves.svg", "");
-  const Result result =
-      command.run("mathieu.delta=-1:2",
-                  {"--over", "mathieu.epsilon=0:2", "--tolerance", "1e-11", "--figure", picture});
+  const Result result = command.run(
+      "mathieu.delta=-1:2", {"--over", "mathieu.epsilon=0:2", "--tolerance", "1e-11", "--figure", picture});
   CHECK(result.code == 0);  // beside a tip 2e-12 is what rounding leaves
   const auto rows = csv_rows(result.out);
   REQUIRE(rows.size() > 50);

@@ -7,17 +7,12 @@
 #include "strutt/chart/tongues.hpp"
 #include "strutt/floquet/stability.hpp"
 #include "support/reference.hpp"
+#include "support/scenes.hpp"
 
 namespace strutt::test {
 namespace {
 
 using std::numbers::pi;
-
-Scene mathieu_scene(double delta, double epsilon, double damping) {
-  Scene scene;
-  scene.mathieu = MathieuTable{.delta = delta, .epsilon = epsilon, .damping = damping};
-  return scene;
-}
 
 Stability stability_at(Scene scene, const std::string& path, double value) {
   parameter(scene, path) = value;

@@ -7,16 +7,10 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/scenes.hpp"
 
 namespace strutt::test {
 namespace {
-
-Scene rod(Equilibrium about, double amplitude, double frequency, double damping = 0.0) {
-  Scene scene;
-  scene.pendulum = PendulumTable{.length = 1.0, .damping = damping, .about = about};
-  scene.support = SupportTable{.amplitude = amplitude, .frequency = frequency};
-  return scene;
-}
 
 Verdict verdict_at(Scene scene, const std::string& path, double value) {
   parameter(scene, path) = value;

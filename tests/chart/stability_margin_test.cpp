@@ -7,22 +7,10 @@
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/sensitivity.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/scenes.hpp"
 
 namespace strutt::test {
 namespace {
-
-Scene mathieu_scene(double delta, double epsilon, double damping = 0.0) {
-  Scene scene;
-  scene.mathieu = MathieuTable{.delta = delta, .epsilon = epsilon, .damping = damping};
-  return scene;
-}
-
-Scene rod(Equilibrium about, double amplitude, double frequency, double damping = 0.0) {
-  Scene scene;
-  scene.pendulum = PendulumTable{.length = 1.0, .damping = damping, .about = about};
-  scene.support = SupportTable{.amplitude = amplitude, .frequency = frequency};
-  return scene;
-}
 
 Scene square_scene(double mean, double amplitude) {
   Scene scene;

@@ -6,15 +6,10 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
+#include "support/scenes.hpp"
 
 namespace strutt::test {
 namespace {
-
-Scene mathieu_scene(double delta, double epsilon) {
-  Scene scene;
-  scene.mathieu = MathieuTable{.delta = delta, .epsilon = epsilon};
-  return scene;
-}
 
 Verdict verdict_at(Scene scene, const std::string& path, double value) {
   parameter(scene, path) = value;

@@ -7,6 +7,7 @@
 #include "strutt/floquet/stability.hpp"
 #include "strutt/floquet/tongue_edges.hpp"
 #include "strutt/model/model_derivative.hpp"
+#include "support/scenes.hpp"
 
 namespace strutt::test {
 namespace {
@@ -15,12 +16,6 @@ struct SceneCase {
   std::string name;
   Scene scene;
 };
-
-Scene mathieu_scene(double delta, double epsilon, double damping, bool mathieu_form = false) {
-  Scene scene;
-  scene.mathieu = MathieuTable{mathieu_form, delta, epsilon, damping};
-  return scene;
-}
 
 Scene hill_scene(double mean, double damping) {
   Scene scene;

@@ -11,15 +11,10 @@
 
 using namespace strutt;
 using strutt::test::check_close;
+using test::mathieu_scene;
 using test::rod_scene;
 
 namespace {
-
-Scene mathieu_scene(double delta, double epsilon, double damping, bool mathieu_form = false) {
-  Scene scene;
-  scene.mathieu = MathieuTable{mathieu_form, delta, epsilon, damping};
-  return scene;
-}
 
 Stability analysed(const Scene& scene) {
   MonodromyEngine engine;

@@ -9,15 +9,10 @@
 #include "support/scenes.hpp"
 
 using namespace strutt;
+using test::mathieu_scene;
 using test::rod_scene;
 
 namespace {
-
-Scene mathieu_scene(double delta, double epsilon, double damping = 0.0, bool mathieu_form = false) {
-  Scene scene;
-  scene.mathieu = MathieuTable{mathieu_form, delta, epsilon, damping};
-  return scene;
-}
 
 Scene hill_scene(Waveform waveform) {
   Scene scene;

@@ -14,4 +14,19 @@ inline Scene rod_scene(Equilibrium about = Equilibrium::hanging) {
   return scene;
 }
 
+/// Mathieu's equation in delta and epsilon, or in a and q.
+inline Scene mathieu_scene(double delta, double epsilon, double damping = 0.0, bool mathieu_form = false) {
+  Scene scene;
+  scene.mathieu = MathieuTable{mathieu_form, delta, epsilon, damping};
+  return scene;
+}
+
+/// A rod of one metre.
+inline Scene rod(Equilibrium about, double amplitude, double frequency, double damping = 0.0) {
+  Scene scene;
+  scene.pendulum = PendulumTable{.length = 1.0, .damping = damping, .about = about};
+  scene.support = SupportTable{.amplitude = amplitude, .frequency = frequency};
+  return scene;
+}
+
 }  // namespace strutt::test
