@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "floquet/half_period_factors.hpp"
 
@@ -54,7 +55,10 @@ struct CellRow {
   double *error = nullptr, *verdict = nullptr, *margin = nullptr, *growth = nullptr, *winding = nullptr,
          *trace = nullptr;
 
-  double largest_error = 0.0;  ///< of all cells; NaN if one is
+  double allowed_error = std::numeric_limits<double>::infinity();
+  /// The largest error of all cells, NaN if one is; if `error` has no place, a bound of them at most a quarter above it,
+  /// infinite where that is above the allowed one.
+  double largest_error = 0.0;
   bool all_resolved = false;   ///< no verdict is `unresolved`
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace strutt {
@@ -17,6 +18,12 @@ double largest_of(const std::vector<double>& values) {
   double largest = 0.0;
   for (const double v : values) largest = std::max(largest, std::abs(v));
   return largest;
+}
+
+double smallest_of(const std::vector<double>& values) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double v : values) smallest = std::min(smallest, std::abs(v));
+  return smallest;
 }
 
 }  // namespace
@@ -48,6 +55,7 @@ std::optional<ProductTable> ProductTable::of(const Function& g, const Axis& x, c
   result.same_in_all_rows_ = all_equal(result.rows_);
   result.same_in_all_columns_ = all_equal(result.columns_);
   result.largest_ = largest_of(result.columns_) * largest_of(result.rows_);
+  result.smallest_ = smallest_of(result.columns_) * smallest_of(result.rows_);
   return result;
 }
 

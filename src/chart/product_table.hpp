@@ -23,12 +23,13 @@ class ProductTable {
   std::size_t columns() const { return columns_.size(); }
   bool same_in_all_rows() const { return same_in_all_rows_; }
   bool same_in_all_columns() const { return same_in_all_columns_; }
-  double largest() const { return largest_; }  ///< bound of the absolute values
+  double largest() const { return largest_; }    ///< bound of the absolute values
+  double smallest() const { return smallest_; }  ///< the same from below
 
  private:
   std::vector<double> columns_, rows_;
   bool same_in_all_rows_ = false, same_in_all_columns_ = false;
-  double largest_ = 0.0;
+  double largest_ = 0.0, smallest_ = 0.0;
 };
 
 }  // namespace strutt

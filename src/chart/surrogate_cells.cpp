@@ -1,6 +1,7 @@
 #include "chart/surrogate_cells.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "chart/cell_engine.hpp"
@@ -45,14 +46,12 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
       with_winding_(contains(request.layers, Layer::winding)),
       parallel_{.threads = request.threads, .cancel = request.cancel},
       surrogate_(scene, request.x, request.y, surrogate_options(request)),
-      boxes_(wants_trace_only(request) && surrogate_.kind() == SurrogateKind::half_period
-                 ? trace_boxes(surrogate_.boxes(), request.tolerance)
-                 : surrogate_.boxes()),
-      grid_(boxes_, request.x, request.y) {
+      boxes_(surrogate_.boxes()) {
   workers_.resize(static_cast<std::size_t>(thread_count(parallel_)));
   if (surrogate_.kind() == SurrogateKind::period) {
     for (auto& worker : workers_) worker.matrix = std::make_unique<MatrixCell>(scene, request);
     reciprocal_ = ReciprocalCells::of(scene, request);
+    grid_ = SurrogateGrid(boxes_, request.x, request.y);
     return;
   }
   for (auto& worker : workers_) {
@@ -60,12 +59,20 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
   }
   half_damping_ = table_of(*workers_[0].model, request, &PointEquation::half_damping);
   kappa_square_ = table_of(*workers_[0].model, request, &PointEquation::kappa_square);
+  if (wants_trace_only(request)) {
+    const auto kappa = [](double square) { return std::max(1.0, std::sqrt(square)); };
+    boxes_ = trace_boxes(boxes_, request.tolerance,
+                         {.least_kappa = kappa(kappa_square_.smallest()),
+                          .largest_kappa = kappa(kappa_square_.largest()),
+                          .damped = half_damping_.largest() > 0.0,
+                          .shifted = *surrogate_.even_phase() != 0.0});
+  }
+  grid_ = SurrogateGrid(boxes_, request.x, request.y);
 }
 
 bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<std::size_t>& rest) {
   const auto pieces = grid_.pieces(strip.first_row, strip.rows);
   std::vector<Count> counts(pieces.size());
-  done_.assign(strip.rows * strip.columns, 0);
   const bool complete = parallel_for(pieces.size(), parallel_, [&](std::size_t k, int slot) {
     counts[k] = fill_piece(pieces[k], strip, workers_[static_cast<std::size_t>(slot)]);
   });
@@ -77,16 +84,31 @@ bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<
   summary.outcomes[static_cast<std::size_t>(Outcome::converged)] += all.cells;
   summary.largest_error = std::max(summary.largest_error, all.largest_error);
   rest.clear();
-  if (all.cells == done_.size()) return complete;
-  for (std::size_t cell = 0; cell < done_.size(); ++cell) {
-    if (done_[cell] == 0) rest.push_back(cell);
-  }
+  if (all.cells < strip.rows * strip.columns) rest = rest_of(strip, pieces, counts);
   return complete;
+}
+
+/// The places of the strip that no piece has filled.
+std::vector<std::size_t> SurrogateCells::rest_of(const ChartStrip& strip,
+                                                 const std::vector<GridPiece>& pieces,
+                                                 const std::vector<Count>& counts) {
+  std::vector<char> done(strip.rows * strip.columns, 0);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    for (std::size_t r = 0; r < pieces[k].rows; ++r)
+      std::fill_n(&done[pieces[k].offset(r, strip)], pieces[k].columns, 1);
+    for (const std::size_t place : counts[k].open) done[place] = 0;
+  }
+  std::vector<std::size_t> rest;
+  for (std::size_t place = 0; place < done.size(); ++place) {
+    if (done[place] == 0) rest.push_back(place);
+  }
+  return rest;
 }
 
 SurrogateCells::Count& SurrogateCells::Count::operator+=(const Count& other) {
   cells += other.cells;
   largest_error = std::max(largest_error, other.largest_error);
+  open.insert(open.end(), other.open.begin(), other.open.end());
   return *this;
 }
 
@@ -109,8 +131,6 @@ SurrogateCells::Count SurrogateCells::fill_traces(const GridPiece& piece, ChartS
         std::fill_n(values + r * strip.columns, piece.columns, static_cast<double>(Outcome::converged));
     }
   }
-  for (std::size_t r = 0; r < piece.rows; ++r)
-    std::fill_n(&done_[offset + r * strip.columns], piece.columns, 1);
   return {.cells = piece.rows * piece.columns, .largest_error = grid_.box(piece).error[0] + 8.0 * 0x1p-53};
 }
 
@@ -145,10 +165,12 @@ SurrogateCells::Count SurrogateCells::fill_matrices(const GridPiece& piece, Char
                                    : worker.matrix->assess(request_.x.value(column), request_.y.value(row),
                                                            box, value, error);
     const bool open = with_verdict_ && found.verdict == Verdict::unresolved;
-    if (found.outcome != Outcome::converged || open) continue;
+    if (found.outcome != Outcome::converged || open) {
+      count.open.push_back(place);
+      continue;
+    }
     for (std::size_t l = 0; l < request_.layers.size(); ++l)
       strip.values[l][place] = layer_value(found, request_.layers[l]);
-    done_[place] = 1;
     count += {1, found.error};
   }
   return count;

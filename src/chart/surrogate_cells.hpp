@@ -40,6 +40,7 @@ class SurrogateCells {
   struct Count {
     std::size_t cells = 0;
     double largest_error = 0.0;
+    std::vector<std::size_t> open = {};  ///< places in the strip of the cells that the surrogate does not answer for
     Count& operator+=(const Count& other);
   };
   /// The turns of the factors at the ends of rows, see fill_factors.
@@ -55,6 +56,8 @@ class SurrogateCells {
     std::unique_ptr<MatrixCell> matrix;  // kind period
   };
 
+  static std::vector<std::size_t> rest_of(const ChartStrip& strip, const std::vector<GridPiece>& pieces,
+                                          const std::vector<Count>& counts);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   Count fill_traces(const GridPiece& piece, ChartStrip& strip, Worker& worker);
   void damp(const GridPiece& piece, double* values, std::size_t stride, Worker& worker) const;
@@ -79,7 +82,6 @@ class SurrogateCells {
   ProductTable half_damping_, kappa_square_;
   std::optional<ReciprocalCells> reciprocal_;  // kind period, where it serves
   std::vector<Worker> workers_;
-  std::vector<char> done_;  // cells of the strip
 };
 
 }  // namespace strutt

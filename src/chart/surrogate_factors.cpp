@@ -110,6 +110,7 @@ void SurrogateCells::prepare(const GridPiece& tile, std::size_t r, Worker& worke
   std::copy_n(box.error.begin(), 4, cells.factor_error.begin());
   cells.exponent = box.exponent;
   cells.box_kappa = box.kappa;
+  cells.allowed_error = request_.tolerance;
   cells.shifted = *surrogate_.even_phase() != 0.0;
   cells.damped = half_damping_.largest() > 0.0;
   cells.quarter_turns = nullptr;
@@ -132,11 +133,8 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
     }
   }
   compute(cells, plain);
-  char* const done = &done_[offset];
-  if (cells.largest_error <= request_.tolerance && (!with_verdict_ || cells.all_resolved)) {
-    std::fill_n(done, tile.columns, 1);
+  if (cells.largest_error <= request_.tolerance && (!with_verdict_ || cells.all_resolved))
     return {tile.columns, cells.largest_error};
-  }
   worker.error.resize(kTileColumns);
   worker.verdict.resize(kTileColumns);
   leave_out_results(cells);
@@ -146,8 +144,11 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
   Count count;
   for (std::size_t c = 0; c < tile.columns; ++c) {
     const bool open = with_verdict_ && worker.verdict[c] == static_cast<double>(Verdict::unresolved);
-    done[c] = worker.error[c] <= request_.tolerance && !open ? 1 : 0;
-    if (done[c] != 0) count += {1, worker.error[c]};
+    if (worker.error[c] <= request_.tolerance && !open) {
+      count += {1, worker.error[c]};
+    } else {
+      count.open.push_back(offset + c);
+    }
   }
   return count;
 }

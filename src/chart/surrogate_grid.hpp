@@ -27,6 +27,7 @@ struct GridPiece {
 class SurrogateGrid {
  public:
   /// The boxes must stay.
+  SurrogateGrid() = default;  // of no cells
   SurrogateGrid(const std::vector<SurrogateBox>& boxes, const Axis& x, const Axis& y);
 
   /// The cells of `rows` rows that lie in interpolated boxes. Rows must be asked for in ascending order.

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 constexpr double kBetweenPoints =
-    1.5;  // bounds there against those at twice as many points as the degree needs
+    1.5;                             // bounds there against those at twice as many points as the degree needs
 constexpr double kShareOfCut = 0.6;  // of what the factors leave of the tolerance
 
 /// T_k(t_i), i, k = 0 ... at the n + 1 Chebyshev points.
@@ -42,8 +42,19 @@ double cut(Eigen::MatrixXd& c, double allowed) {
   return sum;
 }
 
+/// What the largest number of M is at least, from the factors: a; in the state scaled by a cell's kappa, b;
+/// and g, which damping changes.
+Eigen::ArrayXXd size_of(const std::vector<Eigen::ArrayXXd>& f, double square, double kappa,
+                        const TraceScale& scale) {
+  Eigen::ArrayXXd size = (square * (f[0] * f[3] + f[1] * f[2])).abs().max(1.0);
+  if (scale.shifted) return size;
+  size = size.max(2.0 * square * scale.least_kappa / kappa * (f[1] * f[3]).abs());
+  if (scale.damped) return size;
+  return size.max(2.0 * square * kappa / scale.largest_kappa * (f[0] * f[2]).abs());
+}
+
 /// The box with D alone, or as it was.
-SurrogateBox with_trace(const SurrogateBox& box, double tolerance) {
+SurrogateBox with_trace(const SurrogateBox& box, double tolerance, const TraceScale& scale) {
   if (!box.interpolated || std::abs(box.exponent) > 100) return box;
   const double square = std::ldexp(1.0, static_cast<int>(2 * box.exponent));
   const auto& c = box.coefficients;
@@ -64,7 +75,7 @@ SurrogateBox with_trace(const SurrogateBox& box, double tolerance) {
   Eigen::ArrayXXd of_factors = Eigen::ArrayXXd::Zero(values.rows(), values.cols());
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 3}, {1, 2}})
     of_factors += f[a].abs() * box.error[b] + f[b].abs() * box.error[a] + box.error[a] * box.error[b];
-  const Eigen::ArrayXXd size = (0.5 * values.cwiseAbs()).array().max(1.0);
+  const Eigen::ArrayXXd size = size_of(f, square, box.kappa, scale);
   const auto error_with = [&](double dropped) {
     return kBetweenPoints * ((2.0 * square * of_factors + rounding + dropped) / size).maxCoeff();
   };
@@ -80,9 +91,10 @@ SurrogateBox with_trace(const SurrogateBox& box, double tolerance) {
 
 }  // namespace
 
-std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, double tolerance) {
+std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, double tolerance,
+                                      const TraceScale& scale) {
   std::vector<SurrogateBox> result;
-  for (const auto& box : boxes) result.push_back(with_trace(box, tolerance));
+  for (const auto& box : boxes) result.push_back(with_trace(box, tolerance, scale));
   return result;
 }
 

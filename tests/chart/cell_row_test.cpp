@@ -99,6 +99,46 @@ TEST_CASE("cells in vector code are those of single points", "[chart][simd]") {
   }
 }
 
+TEST_CASE("a row's largest error is bounded without dividing", "[chart][simd]") {
+  const bool shifted = GENERATE(false, true);
+  const double h = GENERATE(0.0, 0.3);
+  const Factors f = random_factors(kCells + 8, 9.0);
+  CellColumns columns;
+  columns.set(constant(h), constant(0.5), 0, 0, kCells);
+  const auto bound = [&](std::size_t cells, double* error, double allowed) {
+    Row row(f, cells);
+    row.quarter_turns = f.turns.data();
+    row.factor_error = {1e-12, 3e-12, 2e-12, 1e-13};
+    row.shifted = shifted;
+    row.damped = h != 0.0;
+    row.error = error;
+    row.allowed_error = allowed;
+    columns.give(row, 0);
+    plain_cells(row);
+    return row.largest_error;
+  };
+  for (const std::size_t cells : {std::size_t{1}, std::size_t{5}, std::size_t{64}, kCells}) {
+    std::vector<double> errors(cells);
+    const double largest = bound(cells, errors.data(), 1.0), free = bound(cells, nullptr, 1.0);
+    CHECK(free >= largest * (1.0 - 1e-15));
+    CHECK(free <= 1.25 * largest);
+    CHECK(bound(cells, nullptr, 1.01 * largest) <= 1.01 * largest);  // no row is lost to the steps of the bound
+    CHECK(bound(cells, nullptr, 0.99 * largest) > 0.99 * largest);
+  }
+}
+
+TEST_CASE("a row with a cell that is no number has no bound", "[chart][simd]") {
+  Factors f = random_factors(16, 1.0);
+  f.u1[11] = std::nan("");
+  CellColumns columns;
+  columns.set(constant(0.0), constant(1.0), 0, 0, 16);
+  Row row(f, 16);
+  row.winding = row.error = nullptr;
+  columns.give(row, 0);
+  plain_cells(row);
+  CHECK_FALSE(row.largest_error <= 1e300);
+}
+
 TEST_CASE("a factor that may be zero leaves the verdict open", "[chart][simd]") {
   Factors f = random_factors(16, 1.0);
   f.u1[3] = 1e-13;  // D = -2 within the bound
