@@ -8,7 +8,7 @@
 namespace strutt {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames = {"sse2", "avx2", "avx512"};
+constexpr std::array<std::string_view, 3> kSetNames = {"sse2", "avx2", "avx512"};
 
 bool runs_here(InstructionSet set) {
   switch (set) {
@@ -32,9 +32,9 @@ InstructionSet widest() {
 InstructionSet chosen() {
   const char* const asked = std::getenv("STRUTT_ISA");
   if (asked == nullptr || *asked == '\0') return widest();
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
+  for (std::size_t i = 0; i < kSetNames.size(); ++i) {
     const auto set = static_cast<InstructionSet>(i);
-    if (kNames[i] != asked) continue;
+    if (kSetNames[i] != asked) continue;
     if (runs_here(set)) return set;
     throw InvalidInput("STRUTT_ISA", asked,
                        "a set that this processor runs, at most " + std::string(to_string(widest())));
@@ -44,7 +44,7 @@ InstructionSet chosen() {
 
 }  // namespace
 
-std::string_view to_string(InstructionSet set) { return kNames[static_cast<std::size_t>(set)]; }
+std::string_view to_string(InstructionSet set) { return kSetNames[static_cast<std::size_t>(set)]; }
 
 InstructionSet instruction_set() {
   static const InstructionSet set = chosen();

@@ -8,19 +8,19 @@
 namespace strutt {
 namespace {
 
-constexpr std::array<std::string_view, kMethodCount> kNames = {"auto",   "surrogate", "propagator", "cvode",
+constexpr std::array<std::string_view, kMethodCount> kMethodNames = {"auto",   "surrogate", "propagator", "cvode",
                                                     "arkode", "fourier",   "exact"};
 
 }  // namespace
 
-std::string_view to_string(Method method) { return kNames[static_cast<std::size_t>(method)]; }
+std::string_view to_string(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
 
 Method method_from_string(std::string_view name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
-    if (kNames[i] == name) return static_cast<Method>(i);
+  for (std::size_t i = 0; i < kMethodNames.size(); ++i) {
+    if (kMethodNames[i] == name) return static_cast<Method>(i);
   }
   std::string known;
-  for (const auto& other : kNames) known += (known.empty() ? "" : ", ") + std::string(other);
+  for (const auto& other : kMethodNames) known += (known.empty() ? "" : ", ") + std::string(other);
   throw InvalidInput("method", name, "one of " + known);
 }
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kLeastRounding = 64.0 * kUnit;  // of transform and sum, relative to the factors
 
 }  // namespace

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <deque>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kShareOfCells =
     0.25;                     // the nodes of all boxes, tried ones included, as a share of the cells
 constexpr int kDeepest = 24;  // halvings from the whole chart to a box

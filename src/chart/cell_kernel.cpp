@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "base/dispatch.hpp"
 #include "chart/cell_row.hpp"
 #include "strutt/floquet/verdict.hpp"
@@ -15,11 +15,9 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kStable = static_cast<double>(Verdict::stable),
                  kUnstable = static_cast<double>(Verdict::unstable),
-                 kUnresolved = static_cast<double>(Verdict::unresolved),
-                 kInfinity = std::numeric_limits<double>::infinity();
+                 kUnresolved = static_cast<double>(Verdict::unresolved);
 
 /// Bounds that the errors of a row are compared with: four an octave, the same whatever the width of a
 /// register. This is the last one not above `error` that is a power of two.

@@ -5,14 +5,13 @@
 #include <numbers>
 #include <utility>
 
+#include "base/constants.hpp"
 #include "chart/cell_engine.hpp"
 #include "chart/factor_error.hpp"
 #include "floquet/half_period_factors.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 /// trace M = exp(-h) 2 (u1 u2' + u1' u2) 2^(2 exponent).
 double trace_of(const HalfPeriodFactors& f, double half_damping) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/constants.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/floating_point.hpp"
@@ -13,8 +14,7 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kNarrow = 1e-9;       // relative to the position: below, the growth of the middle says it
+constexpr double kNarrowTongue = 1e-9;       // relative to the position: below, the growth of the middle says it
 constexpr double kNarrowError = 1e-7;  // of that, relative: at most about the width in the mean
 
 std::string damping_path(const Scene& scene) {
@@ -111,7 +111,7 @@ std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine
     if (options.cancel != nullptr && *options.cancel) break;
     ClosingDamping row{.tongue = low.order, .crossing = low.crossing};
     const double size = std::max(std::abs(low.position), std::abs(high.position));
-    if (low.width > kNarrow * size) {
+    if (low.width > kNarrowTongue * size) {
       row = wide(damped, row, low.position, high.position);
     } else {
       row.position = low.growth_position;

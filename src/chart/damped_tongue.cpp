@@ -4,11 +4,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kNarrow = 2e-6;     // undamped width in the mean
+constexpr double kNarrowUndamped = 2e-6;     // undamped width in the mean
 constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
 constexpr double kCurvature =
     8.0;  // bounds the relative error of the narrow form by its product with width^2
@@ -62,7 +63,7 @@ std::optional<DampedTongue::Narrow> DampedTongue::narrow(const Stretch& stretch)
 bool DampedTongue::add_narrow(const Stretch& stretch) {
   if (undamped_.function().order() == 0 || !stretch.begin || !stretch.end) return false;
   const auto& edges = undamped_.function().at(stretch.end->position).edges;
-  if (!(edges.upper.value - edges.lower->value < kNarrow)) return false;
+  if (!(edges.upper.value - edges.lower->value < kNarrowUndamped)) return false;
   if (equation_.half_damping(stretch.begin->position) == 0.0 &&
       equation_.half_damping(stretch.end->position) == 0.0)
     return false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
@@ -12,7 +13,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr int kBlock = 32;  // orders computed together
 
 bool is_square(const PeriodicFunction& v) { return v.harmonics().empty() && !v.is_constant(); }

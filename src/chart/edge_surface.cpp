@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/constants.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/tongue_edges.hpp"
@@ -12,10 +13,9 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kSharp = 1e-5;  // relative error of a gradient that is worth using
 
-double sum_of_amplitudes(const PeriodicFunction& f) {
+double sum_of_harmonics(const PeriodicFunction& f) {
   double sum = 0.0;
   for (const Harmonic& h : f.harmonics()) sum += std::abs(h.cosine) + std::abs(h.sine);
   return sum;
@@ -40,7 +40,7 @@ Margin edge_distance(const HillEquation& equation, const EdgeSurface::Edge& edge
   const double mean = equation.coefficient.mean();
   const CharacteristicValue at = mean_on_edge(equation, edge);
   const double inputs =
-      (equation.coefficient_error + kUnit) * (std::abs(mean) + sum_of_amplitudes(equation.coefficient));
+      (equation.coefficient_error + kUnit) * (std::abs(mean) + sum_of_harmonics(equation.coefficient));
   return {edge.sign * (mean - at.value), at.error + inputs};
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 
 /// How factors at a point turn into the error of M there: the size 2^(2 exponent) of M's unit, and the
@@ -31,7 +33,6 @@ struct FactorScale {
 /// the same of the trace alone, relative to M from 0.
 inline double monodromy_error(const std::array<double, 4>& f, const std::array<double, 4>& e,
                               const FactorScale& scale) {
-  constexpr double kUnit = 0x1p-53;
   const auto product_error = [&](std::size_t i, std::size_t j) {
     return std::abs(f[i]) * e[j] + std::abs(f[j]) * e[i] + e[i] * e[j] + 2.0 * kUnit * std::abs(f[i] * f[j]);
   };

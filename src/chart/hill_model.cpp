@@ -3,17 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt {
-namespace {
-
-constexpr double kUnit = 0x1p-53;
-
-}  // namespace
-
 HillModel::HillModel(const Scene& scene, const Axis& x, const Axis& y,
                      const std::optional<double>& even_phase)
     : scene_(scene),

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/constants.hpp"
 #include "chart/edge_surface.hpp"
 #include "strutt/floquet/sensitivity.hpp"
 #include "strutt/model/model_derivative.hpp"
@@ -13,7 +14,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr int kRaySteps = 24;
 constexpr int kMostTurns = 60;
 constexpr std::size_t kMostStarts = 6;

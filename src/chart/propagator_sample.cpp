@@ -2,13 +2,12 @@
 
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "chart/factor_error.hpp"
 #include "floquet/assembly.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 double error_from_half_period(const PointPropagator& p, long exponent, const PropagatorSample& sample) {
   const auto row_by_row = [](const Eigen::MatrixXd& m) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "chart/point_equation.hpp"
 #include "chart/surrogate_scope.hpp"
 #include "floquet/reciprocal_sums.hpp"
@@ -16,8 +17,6 @@ namespace {
 
 using Eigen::Matrix2d;
 using Eigen::Matrix4d;
-
-constexpr double kUnit = 0x1p-53;
 
 /// The system, if it is one of those that ReciprocalCells serves.
 const LinearPeriodicSystem* served(const LinearModel& model) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kOrder = 60;
 constexpr double kLogNegligible = -42.0;  // of the last terms against the largest, in decades
-constexpr int kMostSteps = 200'000;
+constexpr int kMostReferenceSteps = 200'000;
 
 // Bounds of a step before the last terms are looked at: the solution turns or grows by kRadians, the highest
 // harmonic turns by kPhase.
@@ -133,7 +133,7 @@ class Carrier {
     const double longest =
         std::min(kRadians / rates.solution, kPhase / rates.highest);  // inf where a rate is 0
     for (Real theta = piece.from; theta < piece.to;) {
-      if (++steps_ > kMostSteps || (cancel_ != nullptr && cancel_->load())) return false;
+      if (++steps_ > kMostReferenceSteps || (cancel_ != nullptr && cancel_->load())) return false;
       const Real rest = piece.to - theta;
       const Real h = rest < longest ? rest : Real(longest);
       const Real share = step(piece, theta, h);

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/constants.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kTolerance = 1e-13;  // of the monodromy matrix
 constexpr double kDip = 1e-6;         // a minimum is at least so much below its neighbours, relatively
 constexpr int kBrentBits = 30;

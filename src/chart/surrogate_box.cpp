@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.hpp"
 #include "chart/box_error.hpp"
 #include "chart/chebyshev.hpp"
 #include "chart/clenshaw_kernel.hpp"
@@ -10,8 +11,6 @@
 
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 Tail tail_of(const Eigen::MatrixXd& c) {
   return {c.bottomRows(tail_length(c.rows())).cwiseAbs().sum(),

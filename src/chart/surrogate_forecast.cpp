@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.hpp"
 #include "chart/box_subdivision.hpp"
 #include "chart/chebyshev.hpp"
 #include "chart/cost_table.hpp"
@@ -14,7 +15,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kTraceTerms = 1.0;    // coefficients of D along a row against those of a factor
 constexpr double kSeriesTerms = 40.0;  // multiply-adds for each coefficient of W in a power series
 constexpr double kTables = 5.0;        // tolerances for which plans are made: of plan, nodes and check

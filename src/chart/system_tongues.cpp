@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.hpp"
 #include "chart/stability_line.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr int kGrowthSteps = 32;
 
 Mechanism mechanism_of(std::complex<double> leading) {

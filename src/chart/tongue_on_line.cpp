@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kUnit = 0x1p-53;
 constexpr double kNarrow = 1e-7;  // width in the mean below which its first power gives the growth
 
 /// Two zeros a rounding apart may come in the wrong order: of a rising pair the lower edge is met first, of a

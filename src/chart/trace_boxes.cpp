@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "base/constants.hpp"
 #include "chart/chebyshev.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kBetweenPoints =
     1.5;                             // bounds there against those at twice as many points as the degree needs
 constexpr double kShareOfCut = 0.6;  // of what the factors leave of the tolerance

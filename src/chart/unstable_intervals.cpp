@@ -6,12 +6,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/constants.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 std::vector<UnstableInterval> proved_intervals(const Scene& scene, const TongueLine& line,
                                                const IntervalOptions& options) {

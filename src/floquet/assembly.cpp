@@ -4,13 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
+
 namespace strutt {
-namespace {
-
-constexpr double kUnit = 0x1p-53;
-
-}  // namespace
-
 BoundedMatrix2 mirrored(BoundedMatrix2 propagator) {
   auto& m = propagator.value.mantissa;
   std::swap(m(0, 0), m(1, 1));
@@ -21,9 +17,10 @@ BoundedMatrix2 mirrored(BoundedMatrix2 propagator) {
 BoundedMatrix2 period_from_half(const std::vector<BoundedMatrix2>& half, std::size_t before) {
   std::vector<BoundedMatrix2> factors;
   factors.reserve(2 * half.size());
-  for (std::size_t j = before; j-- > 0;) factors.push_back(mirrored(half[j]));           // [0, theta0]
-  factors.insert(factors.end(), half.begin(), half.end());                               // [theta0, theta0 + pi]
-  for (std::size_t j = half.size(); j-- > before;) factors.push_back(mirrored(half[j]));  // the rest, mirrored
+  for (std::size_t j = before; j-- > 0;) factors.push_back(mirrored(half[j]));  // [0, theta0]
+  factors.insert(factors.end(), half.begin(), half.end());                      // [theta0, theta0 + pi]
+  for (std::size_t j = half.size(); j-- > before;)
+    factors.push_back(mirrored(half[j]));  // the rest, mirrored
   return ordered_product(factors, 2);
 }
 

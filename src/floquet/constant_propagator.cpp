@@ -3,11 +3,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
 using std::numbers::pi;
-constexpr double kUnit = 0x1p-53;
 
 // Roundings of one entry: argument, function value, two products and a quotient; generously.
 constexpr double kEntryError = 12.0 * kUnit;
@@ -19,7 +20,8 @@ struct CosSin {
   double cosine, sine;
 };
 
-/// cos and sin of pi s half_turns with s = sqrt(w): the quarter turns are removed from s half_turns as an unevaluated sum.
+/// cos and sin of pi s half_turns with s = sqrt(w): the quarter turns are removed from s half_turns as an
+/// unevaluated sum.
 CosSin cos_sin(double w, double s, double half_turns) {
   const double s_tail = std::fma(-s, s, w) / (2.0 * s);  // sqrt(w) = s + s_tail to twice the precision
   const double quarters = std::round(2.0 * s * half_turns);

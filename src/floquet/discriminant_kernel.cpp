@@ -4,16 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "base/constants.hpp"
 #include "base/dispatch.hpp"
 
 namespace strutt::detail {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMargin = 1.0 + 2e-5;  // for square roots that are good to 5e-6
 
 #define STRUTT_KERNEL "floquet/discriminant_kernel.inc"

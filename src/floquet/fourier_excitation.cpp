@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/constants.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kLargestNorm = 1e6;
 
 void require_harmonics(const PeriodicFunction& coefficient) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/constants.hpp"
 #include "floquet/discriminant_kernel.hpp"
 #include "floquet/propagators.hpp"
 #include "strutt/base/error.hpp"
@@ -15,8 +16,6 @@ namespace strutt {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Chosen lanes of a batch.
 struct Selection {

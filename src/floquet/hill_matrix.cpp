@@ -6,12 +6,11 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/constants.hpp"
 #include "floquet/lapack.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 /// Rows of a Hermitian banded matrix, column d of a row holding its entry d places left of the diagonal.
 template <typename Scalar>

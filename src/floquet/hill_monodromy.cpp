@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/assembly.hpp"
 #include "floquet/propagators.hpp"
 #include "floquet/undamped_hill.hpp"
@@ -10,8 +11,6 @@ namespace strutt {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double kUnit = 0x1p-53;
 
 /// Y'' + W Y = 0 for both columns of [Y; Y'/kappa], in time local to the segment.
 RightHandSide hill_right_hand_side(const PeriodicFunction& w, double from, double kappa) {

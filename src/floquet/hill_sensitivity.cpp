@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/propagators.hpp"
 #include "strutt/floquet/stability.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kLogLarge = 200.0;
 
 /// What a parameter does to Y'' + W Y = 0 and to h = cT/2.

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/lapack.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kFirstOrderSafety = 4.0;  // for perturbations of eigenvalues beyond first order
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <complex>
 
+#include "base/constants.hpp"
 #include "floquet/lapack.hpp"
 #include "floquet/reciprocal_sums.hpp"
 #include "strutt/floquet/multipliers.hpp"
@@ -9,7 +10,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kSafety = 4.0;
 
 using Eigen::MatrixXd;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 /// ln|lambda| >= 0 and its error from rho = (mantissa) 2^exponent = lambda + 1/lambda.
 struct LogModulus {

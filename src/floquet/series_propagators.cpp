@@ -3,10 +3,11 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr std::size_t kMostFamilies = 64;
 
 /// Calls visit(name, weight) for each term of W besides its mean, named as in SeriesPropagators::Key.

@@ -3,12 +3,11 @@
 #include <numbers>
 #include <vector>
 
+#include "base/constants.hpp"
 #include "floquet/hill_sensitivity.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
 
 /// C = cos(s L), S = sin(s L)/s and their derivatives in w = s^2; entire functions of w.
 struct Waves {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/constants.hpp"
 #include "strutt/base/bounded_matrix.hpp"
 #include "strutt/floquet/constant_propagator.hpp"
 
@@ -14,7 +15,6 @@ namespace strutt {
 namespace {
 
 using std::numbers::pi;
-constexpr double kUnit = 0x1p-53;
 
 /// Pruefer's angle psi, X = r sin psi, X' = r cos psi, after a quarter of the period with the coefficient w.
 double turned(double psi, double w) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/constants.hpp"
+
 namespace strutt {
 namespace {
 
@@ -13,7 +15,6 @@ using Pair [[gnu::vector_size(16)]] = double;
 using PairCount [[gnu::vector_size(16)]] = std::int64_t;
 constexpr std::size_t kPairs = kSturmLanes / 2;
 
-constexpr double kUnit = 0x1p-53;  // unit roundoff
 constexpr double kMargin = 1e-12;  // far above the roundings of one row, far below what costs rows
 
 /// The pivots of one row, and the numbers of negative ones so far.

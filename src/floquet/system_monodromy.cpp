@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/assembly.hpp"
 #include "floquet/propagators.hpp"
 #include "floquet/undamped_system.hpp"
@@ -11,7 +12,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kRadians = 16.0;  // that a solution turns by at most in one part of the period
 constexpr double kMostParts = 10'000.0;
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/hill_sensitivity.hpp"
 #include "floquet/lapack.hpp"
 
@@ -10,7 +11,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kSameModulus =
     1e-9;  // relative: multipliers of a group that stays together or has no derivative
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.hpp"
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/hill_matrix.hpp"
 #include "floquet/square_wave.hpp"
@@ -12,7 +13,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kLargestSquareWave = 1e6;
 
 /// Eigenvalue `index` of a matrix, whose square of the frequency is known: |eigenvalue - square| <= norm of

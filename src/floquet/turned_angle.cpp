@@ -9,7 +9,7 @@ namespace strutt {
 namespace {
 
 using std::numbers::pi;
-constexpr double kMostSteps = 4e6;
+constexpr double kMostAngleSteps = 4e6;
 
 /// The angle with W replaced by its values at the middle of `steps` equal parts. Y passes zero at most once a
 /// step and only forwards, so that half turns are sign changes.
@@ -43,7 +43,7 @@ double lifted_angle(const PeriodicFunction& w, double length, double y, double v
   const double share = length / (2.0 * pi);
   double steps =
       std::ceil(std::max({64.0 * share, 32.0 * share * w.highest_order(), length * std::sqrt(w.bound())}));
-  for (; steps <= kMostSteps; steps *= 4.0) {
+  for (; steps <= kMostAngleSteps; steps *= 4.0) {
     const double estimate = turned_angle(w, length, kappa, static_cast<int>(steps));
     const double lifted = end + 2.0 * pi * std::round((estimate - end) / (2.0 * pi));
     if (std::abs(lifted - estimate) < pi / 2.0) return lifted;

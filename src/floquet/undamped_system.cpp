@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/assembly.hpp"
 
 namespace strutt {
@@ -11,8 +12,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using std::numbers::pi;
-
-constexpr double kUnit = 0x1p-53;
 
 /// factor * inverse_mass * matrix.
 PeriodicMatrix times(const Eigen::PartialPivLU<MatrixXd>& mass, const PeriodicMatrix& matrix, double factor) {

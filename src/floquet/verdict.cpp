@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "floquet/half_period_factors.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr double kLogLarge = 200.0;  // above, cosh and D are handled by their logarithms
 
 struct Bounded {
@@ -18,8 +18,8 @@ struct Bounded {
   double error = 0.0;
 };
 
-/// Product whose bound excludes 0 whenever those of both factors do: the middle and half width of the product of the
-/// two intervals. 0 with error 0 only if a factor is exactly 0.
+/// Product whose bound excludes 0 whenever those of both factors do: the middle and half width of the product
+/// of the two intervals. 0 with error 0 only if a factor is exactly 0.
 Bounded product(Bounded a, Bounded b) {
   const double p = a.value * b.value;
   if (a.error < std::abs(a.value) && b.error < std::abs(b.value)) {

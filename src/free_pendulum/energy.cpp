@@ -1,18 +1,16 @@
 #include "strutt/free_pendulum/energy.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "base/constants.hpp"
 #include "free_pendulum/orbit_start.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 // Relative error of a cosine of sin_cos, with reserve.
 constexpr double kCosineError = 0x1p-100;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 MotionKind kind_of(const OrbitStart& start) {
   if (start.reach.hi == 0.0) return MotionKind::equilibrium;

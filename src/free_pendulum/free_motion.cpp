@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/constants.hpp"
 #include "free_pendulum/agm.hpp"
 #include "free_pendulum/orbit_start.hpp"
 #include "strutt/base/error.hpp"
@@ -12,11 +13,8 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 // Relative error of what is computed in twice the working precision, with reserve.
 constexpr double kDouble = 0x1p-97;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 const DoubleDouble kTwoPi = ldexp(kPi, 1);
 

@@ -5,14 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "free_pendulum/lindstedt.hpp"
 #include "free_pendulum/rational_series.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t size_of(int order) {
   require(order >= 0, "order of the series", order, "0 or more");

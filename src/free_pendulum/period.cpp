@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/constants.hpp"
 #include "free_pendulum/agm.hpp"
 #include "free_pendulum/period_table.hpp"
 #include "strutt/base/error.hpp"
@@ -12,7 +13,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 // What twice the working precision leaves to a rounding.
 constexpr double kRounded = 1.001 * kUnit;
 // 0.8 ulp are at most 1.6 units of 2^-53.

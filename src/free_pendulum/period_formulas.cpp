@@ -4,8 +4,8 @@
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 
+#include "base/constants.hpp"
 #include "free_pendulum/agm.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/free_pendulum/frequency_series.hpp"
@@ -14,12 +14,10 @@
 namespace strutt {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 // In units of 2^-53: formula 4, its amplitude rounded from another input 3 (the formulas are used where their
 // ratio changes by less than 3 times the relative change of the amplitude), T0 and T = ratio T0 2; one to
 // spare for the rounding of the error.
-constexpr double kRounding = 11.0 * kUnit;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFormulaRounding = 11.0 * kUnit;
 constexpr int kSeriesOrder = 14;
 constexpr double kSeriesReach = 0.1;  // (0.1/pi)^12 = 1e-18 is cut off
 constexpr int kRemainderOrder = 26;
@@ -223,7 +221,7 @@ double largest_amplitude(PeriodMethod formula, double tolerance) {
 CheapestPeriod::CheapestPeriod(double tolerance) {
   check_tolerance(tolerance);
   for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
-    reach_[i] = tolerance > kRounding ? largest_amplitude(kPeriodFormulas[i], tolerance - kRounding) : -1.0;
+    reach_[i] = tolerance > kFormulaRounding ? largest_amplitude(kPeriodFormulas[i], tolerance - kFormulaRounding) : -1.0;
 }
 
 PeriodMethod CheapestPeriod::method(double amplitude) const {
@@ -247,7 +245,7 @@ Period period_by(PeriodMethod method, const Libration& orbit, const Period& exac
   if (method == PeriodMethod::elliptic) return exact;
   const FormulaError formula = formula_of(method, orbit);
   const double period = formula.ratio * period_of_amplitude(0.0, alpha).period;
-  return {formula.ratio, period, 0.25 * period, std::abs(formula.relative_error) + kRounding, method};
+  return {formula.ratio, period, 0.25 * period, std::abs(formula.relative_error) + kFormulaRounding, method};
 }
 
 }  // namespace

@@ -14,28 +14,28 @@ using detail::ArcLength;
 using std::numbers::pi;
 
 /// A libration by its modulus k = sin(A/2) and k' = cos(A/2).
-struct Libration {
+struct LibrationCurve {
   double modulus;
   double complementary_modulus;
   double excess;  // -4 k'^2
 };
 
-Libration libration_of_amplitude(double amplitude) {
+LibrationCurve libration_of_amplitude(double amplitude) {
   const double complementary = std::cos(amplitude / 2.0);
   return {std::sin(amplitude / 2.0), complementary, -4.0 * complementary * complementary};
 }
 
-Libration libration_of_excess(double excess) {
+LibrationCurve libration_of_excess(double excess) {
   return {std::sqrt(4.0 + excess) / 2.0, std::sqrt(-excess) / 2.0, excess};
 }
 
 /// cos(phi/2) of a libration whose auxiliary angle is `s` past the turning point.
-double half_angle_cosine(const Libration& l, double sine) {
+double half_angle_cosine(const LibrationCurve& l, double sine) {
   return std::hypot(l.complementary_modulus, l.modulus * sine);
 }
 
 /// (phi, phi'/alpha) at the distance s in [0, pi/2] of the auxiliary angle from the turning point.
-PhasePoint libration_point(const Libration& l, double s) {
+PhasePoint libration_point(const LibrationCurve& l, double s) {
   const double sine = std::sin(s), cosine = std::cos(s);
   return {2.0 * std::atan2(l.modulus * cosine, half_angle_cosine(l, sine)), 2.0 * l.modulus * sine};
 }
@@ -50,7 +50,7 @@ class Window {
 
   void add_equilibria();
   void add_separatrix();
-  void add_libration(const Libration& libration);
+  void add_libration(const LibrationCurve& libration);
   void add_rotation(double excess);
   std::vector<PhaseCurve> take() { return std::move(curves_); }
 
@@ -121,7 +121,7 @@ void Window::add_rotation(double excess) {
   add_span(CurveKind::rotation, excess, half_cell(velocity, slope, least), -half_, half_);
 }
 
-void Window::add_libration(const Libration& l) {
+void Window::add_libration(const LibrationCurve& l) {
   const auto speed = [&](double s) {  // of (phi, phi'/alpha) with the auxiliary angle
     const double sine = std::sin(s);
     return 2.0 * l.modulus * std::hypot(sine / half_angle_cosine(l, sine), std::cos(s));
@@ -191,7 +191,7 @@ void PortraitOptions::validate() const {
 
 std::vector<PhaseCurve> phase_portrait(const PortraitOptions& options) {
   options.validate();
-  std::vector<Libration> librations;
+  std::vector<LibrationCurve> librations;
   std::vector<double> rotations;
   for (const double amplitude : options.amplitudes) librations.push_back(libration_of_amplitude(amplitude));
   for (const double excess : options.excesses) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/constants.hpp"
 #include "integrate/motion_equation.hpp"
 #include "integrate/motion_pass.hpp"
 #include "strutt/base/error.hpp"
@@ -14,7 +15,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 constexpr double kTightest = 1e-14;

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "base/constants.hpp"
 
 namespace strutt::detail {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // How much the difference of the two runs is trusted. The reference tests hold the bound above the true
 // error.
@@ -16,7 +14,7 @@ constexpr double kSafety = 4.0;
 // Rounding, in units of 2^-53. Of the largest state of a segment: once, and a step. Of the restoring force, a
 // radian: between the inputs and the coefficients (alpha^2: 6, frequency^2: 1, harmonics: 4), value of W and
 // sine, phase.
-constexpr double kRoundingOnce = 3.0;
+constexpr double kPassRounding = 3.0;
 constexpr double kRoundingPerStep = 1.5;
 constexpr double kRoundingPerRadian = 16.0;
 
@@ -112,7 +110,7 @@ Trajectory MotionPass::integrate(Integrator& integrator, const Segment& segment,
 
 double MotionPass::rounding(const Segment& segment, double size, long steps) const {
   const double force = equation_.linear() ? size : std::max(std::min(size, 1.0), gained(segment));
-  return kUnit * (size * (kRoundingOnce + kRoundingPerStep * static_cast<double>(steps)) +
+  return kUnit * (size * (kPassRounding + kRoundingPerStep * static_cast<double>(steps)) +
                   force * kRoundingPerRadian * equation_.radians(segment));
 }
 

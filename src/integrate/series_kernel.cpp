@@ -5,17 +5,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <new>
 
+#include "base/constants.hpp"
 #include "base/dispatch.hpp"
 #include "integrate/darboux.hpp"
 
 namespace strutt::detail {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoundingOnce = 2.0;    // units: what the sums and their coefficients cost,
 constexpr double kRoundingGrowth = 0.3;  // and for each g^2 more
 constexpr double kProductRounding = 3.0 * kUnit;

@@ -8,8 +8,8 @@
 namespace strutt::detail {
 namespace {
 
-constexpr int kMostSteps = 16;             // that are looked at one by one
-constexpr double kRounding = 1.0 + 1e-12;  // of sums of positive terms
+constexpr int kMostMiddles = 16;             // that are looked at one by one
+constexpr double kSumRounding = 1.0 + 1e-12;  // of sums of positive terms
 
 /// At any phase.
 CoefficientBounds anywhere(const PeriodicFunction& f, double r) {
@@ -58,7 +58,7 @@ double left_out(int q, std::span<const double> a) {
 
 CoefficientBounds middle_bounds(const SeriesNodes& nodes, const PeriodicFunction& f) {
   const double r = std::abs(nodes.radius());
-  if (nodes.steps() > kMostSteps) return anywhere(f, r);
+  if (nodes.steps() > kMostMiddles) return anywhere(f, r);
   CoefficientBounds result{};
   for (int i = 0; i < nodes.steps(); ++i) {
     CoefficientBounds series;
@@ -78,7 +78,7 @@ double SeriesMajorant::tail(int terms) const {
     const auto known = std::span(slope).first(slope.size() - 1);
     return std::max(left_out(terms - 1, a) / kValueShare, left_out(terms - 2, known));
   };
-  return kRounding * std::max(of(first_), 2.0 * of(second_));
+  return kSumRounding * std::max(of(first_), 2.0 * of(second_));
 }
 
 }  // namespace strutt::detail

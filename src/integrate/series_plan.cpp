@@ -13,7 +13,7 @@ namespace {
 constexpr double kTailShare = 0.05;     // of the tolerance: what becomes of a tail on its way, found by trial
 constexpr double kGreatestStep = 7.0;  // r sqrt|W|; more is never cheaper
 constexpr double kSmallestStep = 1.2;  // less does not reduce rounding much
-constexpr int kMostSteps = 16;         // whose nodes are looked at one by one
+constexpr int kMostCountedSteps = 16;         // whose nodes are looked at one by one
 constexpr double kPatience = 1.25;     // costs rise again once they are so much above the least
 
 std::vector<int> step_ladder() {
@@ -100,7 +100,7 @@ void SeriesPlanner::count_kinds(Rung& rung, const SeriesNodes& nodes) const {
   constexpr std::size_t kTerms = 4;  // tell all
   std::vector<double> series(basis_.size() * kTerms);
   for (int i = 0; i < nodes.count(); ++i) {
-    if (nodes.steps() > kMostSteps && i > 0 && i < nodes.steps()) continue;
+    if (nodes.steps() > kMostCountedSteps && i > 0 && i < nodes.steps()) continue;
     for (std::size_t f = 0; f < basis_.size(); ++f)
       expand(basis_[f], nodes.phase(i), rung.radius, std::span(series).subspan(f * kTerms, kTerms));
     ++rung.kinds[static_cast<std::size_t>(parity_of(series, kTerms))];

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/constants.hpp"
 #include "strutt/integrate/taylor_propagator.hpp"
 
 namespace strutt {
@@ -126,7 +127,6 @@ class TaylorSteps : public TaylorPropagator::Steps {
   // Of the terms of a series, in units of 2^-53: twice what the worst of 700 random systems needed, since
   // roundings add up like a random walk. The worst case would be several times more.
   static constexpr double kSeriesRounding = 1.0;
-  static constexpr double kUnit = 0x1p-53;
 
   /// The state is (Q, scale Q'), a power of two near tau: what is said of one holds for the other exactly.
   double scale() const { return std::ldexp(1.0, exponent_); }

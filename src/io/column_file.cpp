@@ -39,8 +39,9 @@ Writer writer_for(const std::filesystem::path& path) {
                      "' is not known: a table of this kind ends with .csv, .npz, .h5 or .hdf5");
 }
 
+using Json = nlohmann::ordered_json;
+
 std::string metadata(const DataTable& table) {
-  using Json = nlohmann::ordered_json;
   Json columns = Json::object();
   for (const auto& column : table.columns) {
     Json entry{{"unit", column.unit}, {"long_name", column.long_name}};

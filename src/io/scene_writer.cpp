@@ -16,7 +16,7 @@ void line(std::string& out, const char* key, const std::string& value) { out += 
 
 void line(std::string& out, const char* key, double value) { line(out, key, real(value)); }
 
-std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string toml_string(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::string list(const std::vector<double>& values) {
   std::string text;
@@ -58,7 +58,7 @@ std::string periodic_matrix(const PeriodicMatrix& m) {
 void add(std::string& out, const PendulumTable& p) {
   using Shape = PendulumTable::Shape;
   out += "[pendulum]\n";
-  line(out, "shape", in_quotes(p.shape == Shape::rod ? "rod" : p.shape == Shape::point_mass ? "point_mass" : "body"));
+  line(out, "shape", toml_string(p.shape == Shape::rod ? "rod" : p.shape == Shape::point_mass ? "point_mass" : "body"));
   line(out, "mass", p.mass);
   if (p.shape == Shape::body) {
     line(out, "inertia", p.inertia);
@@ -68,7 +68,7 @@ void add(std::string& out, const PendulumTable& p) {
   }
   line(out, "gravity", p.gravity);
   line(out, "damping", p.damping);
-  line(out, "about", in_quotes(p.about == Equilibrium::hanging ? "hanging" : "inverted"));
+  line(out, "about", toml_string(p.about == Equilibrium::hanging ? "hanging" : "inverted"));
 }
 
 void add(std::string& out, const SupportTable& s) {
@@ -76,7 +76,7 @@ void add(std::string& out, const SupportTable& s) {
   line(out, "frequency", s.frequency);
   if (s.waveform == Waveform::harmonics) return add_harmonics(out, s.harmonics);
   if (s.waveform == Waveform::samples) return line(out, "samples", list(s.samples));
-  if (s.waveform == Waveform::square) line(out, "waveform", in_quotes("square_acceleration"));
+  if (s.waveform == Waveform::square) line(out, "waveform", toml_string("square_acceleration"));
   line(out, "amplitude", s.amplitude);
   line(out, "phase", s.phase);
 }
@@ -100,7 +100,7 @@ void add(std::string& out, const HillTable& h) {
   line(out, "period", h.period);
   line(out, "mean", h.mean);
   if (h.waveform == Waveform::square) {
-    line(out, "waveform", in_quotes("square"));
+    line(out, "waveform", toml_string("square"));
     line(out, "amplitude", h.amplitude);
   } else {
     add_harmonics(out, h.harmonics);
@@ -117,7 +117,7 @@ void add(std::string& out, const LinearPeriodicSystem& l) {
 }
 
 std::string axis(const Axis& a) {
-  std::string text = "{ parameter = " + in_quotes(a.parameter) + ", from = " + real(a.from) + ", to = " + real(a.to) +
+  std::string text = "{ parameter = " + toml_string(a.parameter) + ", from = " + real(a.from) + ", to = " + real(a.to) +
                      ", points = " + std::to_string(a.points);
   if (a.scale == AxisScale::logarithmic) text += ", scale = \"log\"";
   return text + " }";
@@ -129,7 +129,7 @@ void add(std::string& out, const ChartTable& chart) {
   if (chart.y) line(out, "y", axis(*chart.y));
   if (chart.layers) {
     std::string names;
-    for (const Layer layer : *chart.layers) names += (names.empty() ? "" : ", ") + in_quotes(to_string(layer));
+    for (const Layer layer : *chart.layers) names += (names.empty() ? "" : ", ") + toml_string(to_string(layer));
     line(out, "layers", "[" + names + "]");
   }
   if (chart.tolerance) line(out, "tolerance", *chart.tolerance);

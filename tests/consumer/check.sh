@@ -6,11 +6,11 @@ here=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-cmake --build "$1" --target strutt strutt_program
+cmake --build "$1"
 cmake --install "$1" --prefix "$scratch/first" > /dev/null
 prefix="$scratch/moved here"
 mv "$scratch/first" "$prefix"
-"$prefix/bin/strutt" --version
+[ ! -e "$prefix/bin/strutt" ] || "$prefix/bin/strutt" --version
 
 cmake -G Ninja -S "$here" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" > /dev/null
 cmake --build "$scratch/build"
