@@ -93,6 +93,21 @@ TEST_CASE("tongues narrower than a step show in the gap between multipliers", "[
   CHECK(edges[0].width == Approx(width).epsilon(1e-3).margin(0.0));
 }
 
+TEST_CASE("a combination resonance is found wherever the steps fall", "[chart][tongues]") {
+  Matrix2d mean, cosine;
+  mean << 1.0, 0.0, 0.0, 2.0;
+  cosine << 0.0, 1e-3, 1e-3, 0.0;
+  const Scene scene = system_scene(mean, cosine);
+  const double at = 2.0 * pi / (1.0 + std::sqrt(2.0));
+  for (int i = 0; i < 20; ++i) {
+    const double shift = 1e-2 * i / 20.0;  // a step is 1e-2, the tongue 1e-3 wide
+    CAPTURE(shift);
+    CHECK(tongues(scene, {"linear.period", at - 0.4 + shift, at + 0.4 + shift},
+                  {.tolerance = 1e-9, .system_steps = 80})
+              .size() == 2);
+  }
+}
+
 TEST_CASE("damping narrows a simple resonance of a system as it does a tongue", "[chart][tongues]") {
   Matrix2d mean, cosine;
   mean << 1.0, 0.0, 0.0, 100.3;
