@@ -147,6 +147,14 @@ const StabilityLine::Point& StabilityLine::at(double parameter) {
   return known_.emplace(parameter, point).first->second;
 }
 
+std::optional<BoundedMatrix> StabilityLine::half_period(double parameter) {
+  *value_ = parameter;
+  const LinearModel model = linear_model(scene_);
+  const auto* system = std::get_if<LinearPeriodicSystem>(&model);
+  if (system == nullptr || system->has_damping()) return std::nullopt;
+  return engine_.compute(*system, {.tolerance = kTolerance}).half;
+}
+
 std::vector<StabilityChange> stability_changes(StabilityLine& line, double from, double to,
                                                const ChangeSearch& search) {
   return ChangeFinder(line, from, to, search).changes();

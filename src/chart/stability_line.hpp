@@ -31,6 +31,10 @@ class StabilityLine {
 
   const Point& at(double parameter);
 
+  /// The propagator over half a period of a system that is symmetric, even in time and undamped there; nothing
+  /// for others.
+  std::optional<BoundedMatrix> half_period(double parameter);
+
  private:
   MonodromyEngine& engine_;
   Scene scene_;

@@ -67,6 +67,13 @@ std::vector<double> crossings(const std::vector<TongueCurve>& curves, double ove
   return found;
 }
 
+std::vector<CurvePoint> tips_of(const TongueCurve& curve) {
+  std::vector<CurvePoint> tips;
+  std::ranges::copy_if(curve.points, std::back_inserter(tips),
+                       [](const CurvePoint& p) { return p.kind == CurvePoint::Kind::tip; });
+  return tips;
+}
+
 }  // namespace
 
 TEST_CASE("curves of a system agree with a dense scan of the verdict", "[chart][tongues]") {
@@ -87,23 +94,38 @@ TEST_CASE("curves of a system agree with a dense scan of the verdict", "[chart][
   }
 }
 
-TEST_CASE("curves of a system go on without gaps down to the resonances at zero excitation",
-          "[chart][tongues]") {
-  const auto curves = tongue_curves(coupled_pendulums(), kAlong, kOver, {.tolerance = 1e-8});
-  REQUIRE(curves.size() == 6);  // two for each of three tongues
+TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[chart][tongues]") {
+  auto curves = tongue_curves(coupled_pendulums(), kAlong, kOver, {.tolerance = 1e-8});
+  REQUIRE(curves.size() == 3);  // down one edge, up the other
+  std::ranges::sort(curves, {}, [](const TongueCurve& c) { return c.points.front().along; });
   const double resonances[] = {pi / kFast, 2.0 * pi / (kSlow + kFast), pi / kSlow};
   const Mechanism mechanisms[] = {Mechanism::minus_one, Mechanism::complex_pair, Mechanism::minus_one};
-  for (std::size_t i = 0; i < 6; ++i) {
-    const CurvePoint& first = curves[i].points.front();
-    CAPTURE(i, first.along);
-    CHECK(first.over < 1e-3 * kOver.to);
-    CHECK(std::abs(first.along - resonances[i / 2]) < 5e-4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CAPTURE(i);
+    const auto tips = tips_of(curves[i]);
+    REQUIRE(tips.size() == 1);
+    CHECK(tips[0].over == 0.0);
+    CHECK(tips[0].along == Approx(resonances[i]).epsilon(1e-14).margin(0.0));
     CHECK(curves[i].points.size() < 300);
     for (const CurvePoint& p : curves[i].points) {
-      CHECK(p.mechanism == mechanisms[i / 2]);
+      CHECK(p.mechanism == mechanisms[i]);
       CHECK(p.outcome == Outcome::converged);
     }
   }
+}
+
+TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart][tongues]") {
+  const auto curves = tongue_curves(coupled_pendulums(), {"linear.period", 4.6, 7.6}, kOver,
+                                    {.tolerance = 1e-8, .chord = 2e-3});
+  std::vector<double> found;
+  for (const TongueCurve& curve : curves)
+    for (const CurvePoint& tip : tips_of(curve))
+      if (tip.over == 0.0) found.push_back(tip.along);
+  std::ranges::sort(found);
+  const double resonances[] = {4.0 * pi / (kSlow + kFast), 2.0 * pi / kSlow, 3.0 * pi / kFast,
+                               6.0 * pi / (kSlow + kFast)};
+  REQUIRE(found.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) CHECK(found[i] == Approx(resonances[i]).epsilon(1e-13).margin(0.0));
 }
 
 }  // namespace strutt::test
