@@ -136,22 +136,30 @@ std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
 constexpr int kMostOverlaidTongues = 40, kMostOverlaySlices = 300;
 constexpr double kOverlayResolution = 1e-5;
 constexpr double kOverlayChord = 2e-3;
+constexpr double kOverlaidSystemPoint = 2e-4;  // expected seconds; curves of a system take 1e4 to 1e5 points
+
+int most_tongues(const Scene& scene, const TongueLine& x, const TongueLine& y) {
+  Scene end = scene;
+  int count = 0;
+  for (const double value : {y.from, y.to}) {
+    parameter(end, y.parameter) = value;
+    count = std::max(count, tongue_count(end, x));
+  }
+  return count;
+}
 
 /// The edges of tongues in the window of a chart; none where they cannot be had at little cost.
-std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest& request) {
+std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest& request,
+                                          const ChartPlan& plan) {
   const auto line = [](const Axis& axis) {
     return TongueLine{axis.parameter, std::min(axis.from, axis.to), std::max(axis.from, axis.to)};
   };
   const TongueLine x = line(request.x), y = line(request.y);
-  if (scene.linear || !(x.from < x.to) || !(y.from < y.to)) return {};
+  if (!(x.from < x.to) || !(y.from < y.to)) return {};
   try {
-    Scene end = scene;
-    int count = 0;
-    for (const double value : {y.from, y.to}) {
-      parameter(end, y.parameter) = value;
-      count = std::max(count, tongue_count(end, x));
-    }
-    if (count > kMostOverlaidTongues) return {};
+    const bool indexed = has_tongue_index(scene, x);
+    const int count = indexed ? most_tongues(scene, x, y) : 0;
+    if (indexed ? count > kMostOverlaidTongues : plan.point.seconds > kOverlaidSystemPoint) return {};
     return tongue_curves(scene, x, y,
                          {.tolerance = 1e-9,
                           .chord = kOverlayChord,
@@ -171,13 +179,13 @@ std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest
 class Sinks {
  public:
   Sinks(const ChartArguments& arguments, const Scene& scene, const ChartDescription& description,
-        const ChartRequest& computed)
+        const ChartRequest& computed, const ChartPlan& plan)
       : layers_(description.request.layers.size()), writer_(writer_for(arguments, description)) {
     if (!arguments.figure) return;
     ChartDescription all = description;
     all.request = computed;
     figure_.emplace(*arguments.figure, all);
-    figure_->set_tongues(overlaid_tongues(scene, computed));
+    figure_->set_tongues(overlaid_tongues(scene, computed, plan));
   }
 
   void add(const ChartStrip& strip) {
@@ -256,7 +264,7 @@ ExitCode run(const ChartArguments& arguments) {
       .y = parameter_info(scene.scene, request.y.parameter),
       .request = request,
       .provenance = provenance_of(arguments, effective(scene, request), plan.method, request.tolerance)};
-  Sinks sinks(arguments, scene.scene, description, computed);
+  Sinks sinks(arguments, scene.scene, description, computed, plan);
   Progress progress(!arguments.quiet, "cells");
   const ChartSummary summary = compute_chart(
       scene.scene, computed, [&](const ChartStrip& strip) { sinks.add(strip); },

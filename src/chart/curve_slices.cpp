@@ -44,6 +44,10 @@ Slice without_pair(Slice slice, std::size_t first) {
   return slice;
 }
 
+double SliceSource::thinnest() const {
+  return std::max(kThinnest, options_.resolution) * (along_.to - along_.from);
+}
+
 Slice SliceSource::at(double over) {
   if (++slices_ > options_.max_slices)
     throw NumericalFailure("tongue " + std::to_string(order_) + ": too many lines for its curves");
@@ -56,7 +60,13 @@ Slice SliceSource::at(double over) {
   const auto edges = order_ == kNoOrder ? system_tongues(engine_, scene_, along_, options)
                                         : TonguesOfOrder(engine_, scene_, along_, options).edges(order_);
   Slice slice{over, {}};
-  for (const TongueEdge& edge : edges) slice.edges.push_back({edge, false});
+  for (const TongueEdge& edge : edges) {
+    slice.edges.push_back({edge, false});
+    const std::size_t last = slice.edges.size() - 1;
+    if (order_ == kNoOrder && edge.upper && last > 0 &&
+        edge.position - slice.edges[last - 1].edge.position < thinnest())
+      slice = without_pair(std::move(slice), last - 1);
+  }
   return slice;
 }
 

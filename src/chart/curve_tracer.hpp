@@ -26,6 +26,8 @@ class CurveTracer {
   bool may_bend(const Slice& a, const Slice& b, double apart) const;
   void bend(const Slice& a, const Slice& b);
   void turn(const Slice& a, const Slice& b, std::size_t pair);
+  bool change_thin_pairs(const Slice& a, const Slice& b);
+  void begin_thin_pair(const Slice& b, std::size_t pair);
   void append(const Slice& slice);
   void restart(const Slice& slice);
   int open();

@@ -17,11 +17,16 @@ constexpr double kTolerance = 1e-13;  // of the monodromy matrix
 constexpr double kDip = 1e-6;         // a minimum is at least so much below its neighbours, relatively
 constexpr int kBrentBits = 30;
 
+/// Least over all pairs of -Re (a - b)^2/(a b): 4 sin^2 of half the angle between two of the same modulus,
+/// negative for two on one ray. Analytic through a collision on the circle, where |a - b| has two cusps.
 double least_gap(const std::vector<std::complex<double>>& multipliers) {
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < multipliers.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) least = std::min(least, std::abs(multipliers[i] - multipliers[j]));
-  return multipliers.empty() ? least : least / std::abs(multipliers.front());
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto a = multipliers[i], b = multipliers[j], apart = a - b;
+      least = std::min(least, -((apart / a) * (apart / b)).real());
+    }
+  return least;
 }
 
 class ChangeFinder {
@@ -140,6 +145,14 @@ const StabilityLine::Point& StabilityLine::at(double parameter) {
     point.gap = least_gap(s.multipliers);
   }
   return known_.emplace(parameter, point).first->second;
+}
+
+std::optional<BoundedMatrix> StabilityLine::half_period(double parameter) {
+  *value_ = parameter;
+  const LinearModel model = linear_model(scene_);
+  const auto* system = std::get_if<LinearPeriodicSystem>(&model);
+  if (system == nullptr || system->has_damping()) return std::nullopt;
+  return engine_.compute(*system, {.tolerance = kTolerance}).half;
 }
 
 std::vector<StabilityChange> stability_changes(StabilityLine& line, double from, double to,

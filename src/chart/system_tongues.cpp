@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.hpp"
+#include "chart/half_period_edge.hpp"
 #include "chart/stability_line.hpp"
 
 namespace strutt {
@@ -42,8 +43,11 @@ void add_width(TongueEdge& low, TongueEdge& high, double errors) {
 std::vector<TongueEdge> system_tongues(MonodromyEngine& engine, const Scene& scene, const TongueLine& along,
                                        const TongueOptions& options) {
   StabilityLine line(engine, scene, along.parameter, true);
-  const auto changes = stability_changes(line, along.from, along.to,
-                                         {.steps = options.system_steps, .cancel = options.cancel});
+  auto changes = stability_changes(line, along.from, along.to,
+                                   {.steps = options.system_steps, .cancel = options.cancel});
+  for (StabilityChange& change : changes)
+    if (!(change.error <= options.tolerance * std::max(1.0, std::abs(change.position))))
+      sharpen(line, change, mechanism_of(line.at(change.unstable_at).leading));
   std::vector<TongueEdge> edges;
   int crossing = 0;
   for (std::size_t i = 0; i < changes.size(); ++i) {

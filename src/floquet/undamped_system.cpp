@@ -80,7 +80,10 @@ Monodromy UndampedSystem::put_together(const std::vector<BoundedMatrix>& factors
   result.half_damping = c * pi;
   const int n = static_cast<int>(2 * mass.rows());
   result.undamped = ordered_product(factors, n);
-  if (half) result.undamped = ordered_product<MatrixXd>({result.undamped, mirrored(result.undamped)}, n);
+  if (half) {
+    result.half = result.undamped;
+    result.undamped = ordered_product<MatrixXd>({*result.half, mirrored(*result.half)}, n);
+  }
   result.matrix = restore_damping(result.undamped, result.half_damping, 0.5 * c);
   return result;
 }

@@ -24,7 +24,7 @@ struct ChartFigure::State {
   ChartDescription description;
   FigureData data;
   StripOrder order;
-  std::string tongues;
+  TongueOverlay tongues;
 };
 
 ChartFigure::ChartFigure(const std::filesystem::path& path, const ChartDescription& description)
@@ -40,7 +40,7 @@ void ChartFigure::add(const ChartStrip& strip) {
 }
 
 void ChartFigure::set_tongues(const std::vector<TongueCurve>& curves) {
-  state_->tongues = tongue_line_data(curves, state_->description.request);
+  state_->tongues = TongueOverlay(curves, state_->description.request);
 }
 
 void ChartFigure::commit() {
@@ -54,8 +54,8 @@ void ChartFigure::commit() {
   gnuplot.write(kCellsFile, image_bytes(data, content.scale, content.repeat));
   const auto edges = contour_lines(data.margin(), data.columns(), 0.0);
   content.has_edges = !edges.empty();
-  content.has_tongues = !state.tongues.empty();
-  gnuplot.write(kTonguesFile, state.tongues);
+  content.tongues = state.tongues;
+  gnuplot.write(kTonguesFile, state.tongues.data());
   gnuplot.write(kEdgesFile, line_data(edges, data));
 
   LabelPlacer placer(plot_size(data), edges);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/chart_writers.hpp"
 #include "io/figure_axis.hpp"
@@ -110,21 +109,6 @@ std::string line_data(const std::vector<ContourLine>& lines, const FigureData& d
   return text;
 }
 
-std::string tongue_line_data(const std::vector<TongueCurve>& curves, const ChartRequest& request) {
-  const auto part = [](const Axis& axis, double value) {
-    if (axis.scale == AxisScale::linear) return (value - axis.from) / (axis.to - axis.from);
-    return std::log(value / axis.from) / std::log(axis.to / axis.from);
-  };
-  std::string text;
-  for (const auto& curve : curves) {
-    for (const auto& p : curve.points)
-      fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f}\n", part(request.x, p.along),
-                     part(request.y, p.over));
-    text += '\n';
-  }
-  return text;
-}
-
 std::string figure_script(const ChartDescription& description, const FigureData& data, const FigureContent& content) {
   const ChartRequest& request = description.request;
   std::string text = fmt::format(
@@ -142,15 +126,12 @@ std::string figure_script(const ChartDescription& description, const FigureData&
     text += fmt::format(", '{}' with lines linewidth 0.6 linecolor rgb '{}' title 'equal growth'", kGrowthFile,
                         kGrowthLineColour);
   }
-  if (content.has_edges) {
-    text += fmt::format(", '{}' with lines linewidth 1.6 linecolor rgb '#000000' {}",
-                        kEdgesFile, content.has_tongues ? "notitle" : "title 'edge of stability'");
+  // the contour through the cells follows edges of combination resonances in steps
+  if (content.has_edges && !content.tongues.by_mechanism()) {
+    text += fmt::format(", '{}' with lines linewidth 1.6 linecolor rgb '#000000' {}", kEdgesFile,
+                        content.tongues.empty() ? "title 'edge of stability'" : "notitle");
   }
-  if (content.has_tongues) {
-    text += fmt::format(
-        ", '{}' with lines linewidth 1.2 linecolor rgb '#000000' title 'tongue edges (min. stroke)'",
-        kTonguesFile);
-  }
+  text += content.tongues.plots();
   text += key_boxes(data);
   // An empty line with a palette is what makes gnuplot draw the colour bar.
   if (!content.scale.levels.empty()) text += ", NaN with lines palette notitle";

@@ -6,7 +6,7 @@
 #include "io/figure_data.hpp"
 #include "io/figure_format.hpp"
 #include "io/figure_labels.hpp"
-#include "strutt/chart/tongue_curves.hpp"
+#include "io/tongue_overlay.hpp"
 #include "strutt/io/chart_file.hpp"
 
 namespace strutt {
@@ -15,7 +15,6 @@ namespace strutt {
 inline constexpr const char* kCellsFile = "cells.rgb";
 inline constexpr const char* kEdgesFile = "edges.dat";
 inline constexpr const char* kGrowthFile = "growth.dat";
-inline constexpr const char* kTonguesFile = "tongues.dat";
 
 /// The plotting area in pixels of a picture of 1600 x 1100.
 PlotSize plot_size(const FigureData& data);
@@ -27,7 +26,7 @@ struct FigureContent {
   GrowthScale scale;
   std::vector<LineLabel> labels;
   bool has_edges = false;
-  bool has_tongues = false;
+  TongueOverlay tongues = {};
   bool has_growth_lines = false;
 };
 
@@ -35,7 +34,6 @@ struct FigureContent {
 std::string figure_script(const ChartDescription& description, const FigureData& data, const FigureContent& content);
 
 /// Lines for `plot ... with lines`, in units of the plotting area.
-std::string tongue_line_data(const std::vector<TongueCurve>& curves, const ChartRequest& request);
 std::string line_data(const std::vector<ContourLine>& lines, const FigureData& data);
 
 }  // namespace strutt

@@ -93,6 +93,61 @@ TEST_CASE("tongues narrower than a step show in the gap between multipliers", "[
   CHECK(edges[0].width == Approx(width).epsilon(1e-3).margin(0.0));
 }
 
+TEST_CASE("a combination resonance is found wherever the steps fall", "[chart][tongues]") {
+  Matrix2d mean, cosine;
+  mean << 1.0, 0.0, 0.0, 2.0;
+  cosine << 0.0, 1e-3, 1e-3, 0.0;
+  const Scene scene = system_scene(mean, cosine);
+  const double at = 2.0 * pi / (1.0 + std::sqrt(2.0));
+  for (int i = 0; i < 20; ++i) {
+    const double shift = 1e-2 * i / 20.0;  // a step is 1e-2, the tongue 1e-3 wide
+    CAPTURE(shift);
+    CHECK(tongues(scene, {"linear.period", at - 0.4 + shift, at + 0.4 + shift},
+                  {.tolerance = 1e-9, .system_steps = 80})
+              .size() == 2);
+  }
+}
+
+TEST_CASE("simple resonances of the coupled pendulums meet the default tolerance", "[chart][tongues]") {
+  // docs/examples/coupled_pendulums.toml; the tongue at 6.11 is 1.5e-3 wide, where the margin is flat
+  Matrix2d mean, cosine;
+  mean << 1.3, -0.3, -0.3, 2.3;
+  cosine << 0.4, 0.0, 0.0, 0.0;
+  const auto edges = tongues(system_scene(mean, cosine), {"linear.period", 1.2, 8.0});
+  REQUIRE(edges.size() == 16);
+  for (const TongueEdge& edge : edges) {
+    CAPTURE(edge.position);
+    CHECK(edge.outcome == Outcome::converged);
+    CHECK(edge.error <= 1e-12);
+  }
+}
+
+TEST_CASE("sharpened edges of a thin tongue are those of its equation", "[chart][tongues]") {
+  // Uncoupled in rotated coordinates: tongue 2 of Mathieu's equation is 5e-5 wide at epsilon = 0.01.
+  Matrix2d rotation;
+  rotation << 0.6, -0.8, 0.8, 0.6;
+  const auto rotated = [&](double first, double second) {
+    const Matrix2d m = rotation * Eigen::Vector2d(first, second).asDiagonal() * rotation.transpose();
+    return MatrixXd(0.5 * (m + m.transpose()));  // symmetric to the last bit
+  };
+  const Scene scene = system_scene(rotated(1.0, 100.3), rotated(0.01, 0.0));
+  const auto edges = tongues(scene, {"linear.period", 2.0 * pi - 1e-2, 2.0 * pi + 1e-2});
+  REQUIRE(edges.size() == 2);
+  Scene one;
+  one.linear = LinearPeriodicSystem{
+      .period = 2.0 * pi, .mass = MatrixXd::Identity(1, 1), .damping = {}, .stiffness = {}};
+  one.linear->stiffness.mean = MatrixXd::Identity(1, 1);
+  one.linear->stiffness.harmonics = {{1, 0.01 * MatrixXd::Identity(1, 1), MatrixXd::Zero(1, 1)}};
+  const auto expected = tongues(one, {"linear.period", 2.0 * pi - 1e-2, 2.0 * pi + 1e-2});
+  REQUIRE(expected.size() == 2);  // by eigenvalues of Fourier matrices
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(std::abs(edges[i].position - expected[i].position) <
+          (edges[i].error + expected[i].error) * edges[i].position + 1e-13);
+    CHECK(edges[i].error <= 1e-12);
+    CHECK(edges[i].mechanism == Mechanism::plus_one);
+  }
+}
+
 TEST_CASE("damping narrows a simple resonance of a system as it does a tongue", "[chart][tongues]") {
   Matrix2d mean, cosine;
   mean << 1.0, 0.0, 0.0, 100.3;

@@ -57,6 +57,12 @@ struct CurveOptions {
 /// followed to the tip by the secant method. A closed curve, or a tip and back, between two of the first
 /// lines may be missed.
 ///
+/// Systems: pairs of edges closer than 1e-6 of the line, or than `resolution`, are left out. Without damping,
+/// and without excitation at over.from, tongues begin there with a tip at T (w_i + w_j) = 2 pi k, w_i the
+/// frequencies of the system at rest, if that is within four `chord` of where the tongue first shows: in a
+/// straight line, which a tongue that leaves its resonance like a parabola then follows within `chord`. The
+/// crossing of two tongues is a tip, too.
+///
 /// Cost: that of tongues() for some 30 to 60 values of the second parameter. Throws InvalidInput as tongues()
 /// at both ends of `over`, and where only one of them has tongues with an index; NumericalFailure where
 /// max_slices are not enough.

@@ -41,6 +41,7 @@ struct BasicMonodromy {
   double half_damping = 0.0; ///< h
   /// Hill's equation with an even coefficient about theta0: the propagator of y over [theta0, theta0 + pi],
   /// [u1, kappa u2; u1'/kappa, u2']. Then trace N - 2 = 4 u1' u2 and trace N + 2 = 4 u1 u2'.
+  /// Symmetric systems with even coefficients and damping c M, by Method::propagator: that over [0, T/2].
   std::optional<Bounded> half;
   double kappa = 1.0;        ///< in the scene's unit of time
 
