@@ -18,12 +18,12 @@ namespace {
 
 using Writer = void (*)(OutputFile&, const std::string&, const DataTable&);
 
-struct Format {
+struct TableFormat {
   std::string_view ending;
   Writer writer;
 };
 
-constexpr Format kFormats[] = {{".csv", write_csv_columns},
+constexpr TableFormat kTableFormats[] = {{".csv", write_csv_columns},
                                {".npz", write_npz_columns},
                                {".h5", write_hdf5_columns},
                                {".hdf5", write_hdf5_columns}};
@@ -31,7 +31,7 @@ constexpr Format kFormats[] = {{".csv", write_csv_columns},
 Writer writer_for(const std::filesystem::path& path) {
   if (path == "-") return write_csv_columns;
   const std::string ending = ending_of(path);
-  for (const auto& format : kFormats) {
+  for (const auto& format : kTableFormats) {
     if (format.ending == ending) return format.writer;
   }
   if (is_device(path)) return write_csv_columns;
