@@ -76,7 +76,7 @@ std::vector<CurvePoint> tips_of(const TongueCurve& curve) {
 
 }  // namespace
 
-TEST_CASE("curves of a system agree with a dense scan of the verdict", "[chart][tongues]") {
+TEST_CASE("curves of a system agree with a dense scan of the verdict", "[chart][tongues][slow]") {
   const Scene scene = coupled_pendulums();
   const double chord = 1e-3, step = 4e-4;
   const auto curves = tongue_curves(scene, kAlong, kOver, {.tolerance = 1e-9, .chord = chord});
@@ -114,7 +114,7 @@ TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[ch
   }
 }
 
-TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart][tongues]") {
+TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart][tongues][slow]") {
   const auto curves = tongue_curves(coupled_pendulums(), {"linear.period", 4.6, 7.6}, kOver,
                                     {.tolerance = 1e-8, .chord = 2e-3});
   std::vector<double> found;

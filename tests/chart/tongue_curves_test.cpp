@@ -58,7 +58,7 @@ TEST_CASE("curves of Mathieu's tongues are the characteristic values", "[chart][
   CHECK(tips_of(curves).empty());
 }
 
-TEST_CASE("between its points a curve is as straight as was asked for", "[chart][tongues]") {
+TEST_CASE("between its points a curve is as straight as was asked for", "[chart][tongues][slow]") {
   for (const double chord : {1e-2, 1e-4}) {
     const TongueLine along{"mathieu.delta", -1.0, 5.0}, over{"mathieu.epsilon", 0.0, 5.0};
     const auto curves = tongue_curves(mathieu_scene(0.1), along, over, {.chord = chord});
@@ -115,7 +115,7 @@ TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues]
   }
 }
 
-TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongues]") {
+TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongues][slow]") {
   // the upper edge of tongue 2, a_2(2 epsilon)/4, has a maximum
   const auto curves =
       tongue_curves(mathieu_scene(0.0), {"mathieu.epsilon", 0.1, 8.0}, {"mathieu.delta", 0.5, 3.0});
