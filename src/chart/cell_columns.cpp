@@ -1,8 +1,9 @@
 #include "chart/cell_columns.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "chart/hill_model.hpp"
 
 namespace strutt {
 
@@ -46,7 +47,7 @@ void CellColumns::set_kappa(const ProductTable& kappa_square, std::size_t row, s
     const double square = kappa_square(c, row);
     if (square == kappa_square_[c]) continue;
     kappa_square_[c] = square;
-    kappa_[c] = std::max(1.0, std::sqrt(square));
+    kappa_[c] = canonical_kappa(square);
     inverse_kappa_[c] = 1.0 / kappa_[c];
   }
 }

@@ -45,6 +45,7 @@ Slice without_pair(Slice slice, std::size_t first) {
 }
 
 double SliceSource::thinnest() const {
+  constexpr double kThinnest = 1e-6;  // of the line
   return std::max(kThinnest, options_.resolution) * (along_.to - along_.from);
 }
 

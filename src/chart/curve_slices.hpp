@@ -19,9 +19,6 @@ struct Slice {
 
 bool same_pattern(const Slice& a, const Slice& b);
 
-/// Pairs of systems thinner than this part of the line are left out of slices: they show in some only.
-inline constexpr double kThinnest = 1e-6;
-
 /// A slice without the edges `first` and first + 1.
 Slice without_pair(Slice slice, std::size_t first);
 
@@ -34,7 +31,7 @@ class SliceSource {
 
   Slice at(double over);  ///< throws NumericalFailure after max_slices
   double resolution() const { return options_.resolution; }
-  double thinnest() const;  ///< pairs of systems are at least so wide
+  double thinnest() const;  ///< pairs of systems that are thinner are left out of slices: they show in some only
   const Scene& scene() const { return scene_; }
   const TongueLine& along() const { return along_; }
   const TongueLine& over() const { return over_; }

@@ -9,6 +9,7 @@
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt {
+
 HillModel::HillModel(const Scene& scene, const Axis& x, const Axis& y,
                      const std::optional<double>& even_phase)
     : scene_(scene),

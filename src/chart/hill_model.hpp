@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "chart/propagator_sample.hpp"
@@ -10,13 +12,16 @@
 
 namespace strutt {
 
+/// Canonical kappa of an equation from |mean| of its coefficient.
+inline double canonical_kappa(double kappa_square) { return std::max(1.0, std::sqrt(kappa_square)); }
+
 /// A point of a chart as the equation of y = exp(ct/2) x, seen from an even point of its coefficient if it
 /// has one: Y'' + W(theta) Y = 0 (canonical time).
 struct PointEquation {
   HillEquation equation;      ///< undamped; the shift by -c^2/4 is in its mean
   double half_damping = 0.0;  ///< h = cT/2
   bool shifted = false;       ///< the even point is not the phase 0
-  double kappa = 1.0;         ///< canonical kappa of the equation of x, max(1, sqrt(kappa_square))
+  double kappa = 1.0;         ///< canonical kappa of the equation of x, canonical_kappa(kappa_square)
   double kappa_square = 0.0;  ///< |mean of its coefficient|; 0 where kappa is 1 whatever that is
 };
 

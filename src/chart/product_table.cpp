@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "base/constants.hpp"
 
 namespace strutt {
 namespace {
@@ -21,7 +22,7 @@ double largest_of(const std::vector<double>& values) {
 }
 
 double smallest_of(const std::vector<double>& values) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = kInfinity;
   for (const double v : values) smallest = std::min(smallest, std::abs(v));
   return smallest;
 }

@@ -1,7 +1,6 @@
 #include "chart/surrogate_cells.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "chart/cell_engine.hpp"
@@ -51,23 +50,24 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
   if (surrogate_.kind() == SurrogateKind::period) {
     for (auto& worker : workers_) worker.matrix = std::make_unique<MatrixCell>(scene, request);
     reciprocal_ = ReciprocalCells::of(scene, request);
-    grid_ = SurrogateGrid(boxes_, request.x, request.y);
-    return;
-  }
-  for (auto& worker : workers_) {
-    worker.model = std::make_unique<HillModel>(scene, request.x, request.y, surrogate_.even_phase());
-  }
-  half_damping_ = table_of(*workers_[0].model, request, &PointEquation::half_damping);
-  kappa_square_ = table_of(*workers_[0].model, request, &PointEquation::kappa_square);
-  if (wants_trace_only(request)) {
-    const auto kappa = [](double square) { return std::max(1.0, std::sqrt(square)); };
-    boxes_ = trace_boxes(boxes_, request.tolerance,
-                         {.least_kappa = kappa(kappa_square_.smallest()),
-                          .largest_kappa = kappa(kappa_square_.largest()),
-                          .damped = half_damping_.largest() > 0.0,
-                          .shifted = *surrogate_.even_phase() != 0.0});
+  } else {
+    prepare_factors(scene);
   }
   grid_ = SurrogateGrid(boxes_, request.x, request.y);
+}
+
+void SurrogateCells::prepare_factors(const Scene& scene) {
+  for (auto& worker : workers_) {
+    worker.model = std::make_unique<HillModel>(scene, request_.x, request_.y, surrogate_.even_phase());
+  }
+  half_damping_ = table_of(*workers_[0].model, request_, &PointEquation::half_damping);
+  kappa_square_ = table_of(*workers_[0].model, request_, &PointEquation::kappa_square);
+  if (!wants_trace_only(request_)) return;
+  boxes_ = trace_boxes(boxes_, request_.tolerance,
+                       {.least_kappa = canonical_kappa(kappa_square_.smallest()),
+                        .largest_kappa = canonical_kappa(kappa_square_.largest()),
+                        .damped = half_damping_.largest() > 0.0,
+                        .shifted = *surrogate_.even_phase() != 0.0});
 }
 
 bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<std::size_t>& rest) {

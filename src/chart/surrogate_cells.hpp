@@ -56,6 +56,7 @@ class SurrogateCells {
     std::unique_ptr<MatrixCell> matrix;  // kind period
   };
 
+  void prepare_factors(const Scene& scene);
   static std::vector<std::size_t> rest_of(const ChartStrip& strip, const std::vector<GridPiece>& pieces,
                                           const std::vector<Count>& counts);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);

@@ -7,6 +7,7 @@
 #include "base/constants.hpp"
 
 namespace strutt {
+
 BoundedMatrix2 mirrored(BoundedMatrix2 propagator) {
   auto& m = propagator.value.mantissa;
   std::swap(m(0, 0), m(1, 1));

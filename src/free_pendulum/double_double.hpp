@@ -64,6 +64,7 @@ DoubleDouble sqrt(DoubleDouble a);
 DoubleDouble hypot(DoubleDouble a, DoubleDouble b);
 
 inline constexpr DoubleDouble kPi{3.141592653589793, 1.2246467991473532e-16};
+inline constexpr DoubleDouble kTwoPi{2.0 * kPi.hi, 2.0 * kPi.lo};
 inline constexpr double kPiThird = -2.9947698097183397e-33;  ///< pi - kPi
 
 struct SinCos {

@@ -16,8 +16,6 @@ namespace {
 // Relative error of what is computed in twice the working precision, with reserve.
 constexpr double kDouble = 0x1p-97;
 
-const DoubleDouble kTwoPi = ldexp(kPi, 1);
-
 /// phi0'/alpha and its relative error, 0 if the quotient is exact.
 struct Quotient {
   DoubleDouble value;

@@ -18,8 +18,6 @@ constexpr double kRounded = 1.001 * kUnit;
 // 0.8 ulp are at most 1.6 units of 2^-53.
 constexpr double kTableError = 1.6 * kUnit;
 
-const DoubleDouble kTurn = ldexp(kPi, 1);
-
 DoubleDouble sum_of(const Eigenfrequency& alpha) { return {alpha.value, alpha.rest}; }
 
 /// `ratio_error` is relative.
@@ -32,7 +30,7 @@ double underflow_error(double value) {
 Period period_of(double ratio, double ratio_error, const Eigenfrequency& alpha) {
   alpha.validate();
   if (std::isinf(ratio)) return {ratio, ratio, ratio, 0.0, PeriodMethod::separatrix};
-  double period = (DoubleDouble(ratio) * kTurn / sum_of(alpha)).hi;
+  double period = (DoubleDouble(ratio) * kTwoPi / sum_of(alpha)).hi;
   if (!std::isfinite(period)) period = std::numeric_limits<double>::infinity();  // alpha below 1e-307
   return {ratio, period, 0.25 * period, ratio_error + kRounded + underflow_error(0.25 * period),
           PeriodMethod::elliptic};
@@ -164,7 +162,7 @@ BoundedNumber libration_time_of_flight(double amplitude, double angle, const Eig
   const DoubleDouble below = sin_cos(ldexp(two_sum(amplitude, -angle), -1)).sine;
   const DoubleDouble above = sin_cos(ldexp(two_sum(amplitude, angle), -1)).sine;
   const DoubleDouble cotangent = sqrt(below) * sqrt(above) / sin_cos(0.5 * angle).sine;
-  return rounded(kTurn / agm.mean() / sum_of(alpha) * agm.turns_of(cotangent));
+  return rounded(kTwoPi / agm.mean() / sum_of(alpha) * agm.turns_of(cotangent));
 }
 
 BoundedNumber rotation_time_of_flight(double separatrix_excess, double angle, const Eigenfrequency& alpha) {
@@ -181,7 +179,7 @@ BoundedNumber rotation_time_of_flight(double separatrix_excess, double angle, co
   const double sign = half.sine.hi < 0.0 ? -1.0 : 1.0;
   const DoubleDouble rest = DoubleDouble(sign) * agm.turns_of(half.cosine / abs(half.sine));
   const DoubleDouble phase = DoubleDouble(0.5 * count) + rest;
-  return rounded(ldexp(kTurn, 1) / agm.mean() / bottom / sum_of(alpha) * phase);
+  return rounded(ldexp(kTwoPi, 1) / agm.mean() / bottom / sum_of(alpha) * phase);
 }
 
 }  // namespace strutt

@@ -9,6 +9,7 @@
 #include "strutt/base/error.hpp"
 
 namespace strutt {
+
 void HillBatch::validate(std::size_t functions) const {
   if (weights.size() != functions) {
     throw InvalidInput("weights", std::to_string(weights.size()), "as many as there are basis functions");

@@ -24,9 +24,9 @@ struct TableFormat {
 };
 
 constexpr TableFormat kTableFormats[] = {{".csv", write_csv_columns},
-                               {".npz", write_npz_columns},
-                               {".h5", write_hdf5_columns},
-                               {".hdf5", write_hdf5_columns}};
+                                         {".npz", write_npz_columns},
+                                         {".h5", write_hdf5_columns},
+                                         {".hdf5", write_hdf5_columns}};
 
 Writer writer_for(const std::filesystem::path& path) {
   if (path == "-") return write_csv_columns;

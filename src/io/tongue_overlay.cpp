@@ -31,7 +31,7 @@ const TongueOverlay::Style TongueOverlay::kPlusOne{"edge: through +1",
 const TongueOverlay::Style TongueOverlay::kComplex{"edge: complex",
                                                    "linewidth 1.8 dashtype (4,3) linecolor rgb '#6A1B9A'"};
 
-const TongueOverlay::Style* TongueOverlay::style_of(const TongueCurve& curve, const CurvePoint& point) const {
+const TongueOverlay::Style* TongueOverlay::style_of(const TongueCurve& curve, const CurvePoint& point) {
   if (curve.order != kNoOrder) return &kTongue;
   switch (point.mechanism) {
     case Mechanism::plus_one:
@@ -63,7 +63,6 @@ TongueOverlay::TongueOverlay(const std::vector<TongueCurve>& curves, const Chart
     data_ += block + "\n";  // two empty lines end a block
     styles_.push_back(style);
   }
-  by_mechanism_ = !styles_.empty() && styles_.front() != &kTongue;
 }
 
 std::string TongueOverlay::plots() const {

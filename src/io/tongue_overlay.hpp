@@ -18,7 +18,7 @@ class TongueOverlay {
   TongueOverlay(const std::vector<TongueCurve>& curves, const ChartRequest& request);
 
   bool empty() const { return styles_.empty(); }
-  bool by_mechanism() const { return by_mechanism_; }
+  bool by_mechanism() const { return !empty() && styles_.front() != &kTongue; }
 
   /// kTonguesFile, in units of the plotting area: a block for each part of plots().
   const std::string& data() const { return data_; }
@@ -27,11 +27,10 @@ class TongueOverlay {
  private:
   struct Style;
   std::vector<const Style*> styles_;
-  bool by_mechanism_ = false;
   std::string data_;
 
   static const Style kTongue, kPlusOne, kMinusOne, kComplex;
-  const Style* style_of(const TongueCurve& curve, const CurvePoint& point) const;
+  static const Style* style_of(const TongueCurve& curve, const CurvePoint& point);
 };
 
 }  // namespace strutt
