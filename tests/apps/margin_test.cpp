@@ -120,7 +120,7 @@ TEST_CASE("margin --closing-damping tells the damping of each tongue", "[apps][m
   CHECK(csv_rows(rod.run({"--closing-damping", "support.frequency=2:30", "--count", "3"}).out).size() == 3);
 }
 
-TEST_CASE("margin --box bounds the worst growth", "[apps][margin]") {
+TEST_CASE("margin --box bounds the worst growth", "[apps][margin][slow]") {
   const Result result = Command().run(
       {"--box", "support.frequency=7:9,pendulum.length=0.9:1.1", "--tolerance", "1e-2", "--json"});
   CHECK(result.code == 0);

@@ -87,7 +87,7 @@ TEST_CASE("a chart by surrogate is the one point by point in every layer",
 }
 
 TEST_CASE("a chart by surrogate over frequency and amplitude of a pendulum",
-          "[chart][surrogate][stability_chart]") {
+          "[chart][surrogate][stability_chart][slow]") {
   const Scene scene = scene_of(
       "[pendulum]\nlength = 0.7\ndamping = 0.2\nabout = \"inverted\"\n"
       "[support]\namplitude = 0.1\nfrequency = 12\nphase = 1\n");

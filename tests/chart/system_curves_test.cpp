@@ -94,7 +94,7 @@ TEST_CASE("curves of a system agree with a dense scan of the verdict", "[chart][
   }
 }
 
-TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[chart][tongues]") {
+TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[chart][tongues][slow]") {
   auto curves = tongue_curves(coupled_pendulums(), kAlong, kOver, {.tolerance = 1e-8});
   REQUIRE(curves.size() == 3);  // down one edge, up the other
   std::ranges::sort(curves, {}, [](const TongueCurve& c) { return c.points.front().along; });

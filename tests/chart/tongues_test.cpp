@@ -143,7 +143,7 @@ TEST_CASE("a line may meet a tongue more than once", "[chart][tongues]") {
   CHECK(first[0].position == Approx(-first[1].position).epsilon(1e-14));
 }
 
-TEST_CASE("a tip on the end of the line is an edge there", "[chart][tongues]") {
+TEST_CASE("a tip on the end of the line is an edge there", "[chart][tongues][slow]") {
   const auto edges = tongues(mathieu_scene(1.0, 0.0), {"mathieu.epsilon", 0.0, 9.0});
   std::vector<TongueEdge> second;
   for (const TongueEdge& edge : edges)

@@ -63,7 +63,7 @@ TEST_CASE("Every method that fits is measured at every decade", "[chart][tradeof
   CHECK(row_of(tradeoff, Method::propagator, 1e-9).converged == 1);
 }
 
-TEST_CASE("The surrogate of a box is measured, building included", "[chart][tradeoff][surrogate]") {
+TEST_CASE("The surrogate of a box is measured, building included", "[chart][tradeoff][surrogate][slow]") {
   Scene rod;  // a sine: seen from another phase than 0
   rod.pendulum = PendulumTable{.length = 1.0};
   rod.support = SupportTable{.amplitude = 0.1, .frequency = 12.0};

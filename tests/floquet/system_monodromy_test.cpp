@@ -49,7 +49,7 @@ LinearPeriodicSystem pendulums() {
 }  // namespace
 
 TEST_CASE("The bound of systems is above the true error, and within the tolerance",
-          "[floquet][random][ratchet]") {
+          "[floquet][random][ratchet][slow]") {
   MonodromyEngine engine;
   RandomSystems systems(31);
   int converged = 0, count = 0;

@@ -84,7 +84,7 @@ TEST_CASE("halving the step of the series divides the error by 2^order", "[integ
 }
 
 TEST_CASE("the bound of the series is above the true error on random systems",
-          "[integrate][taylor][random][ratchet]") {
+          "[integrate][taylor][random][ratchet][slow]") {
   RandomSystems systems(21);
   double sharp = 0.0, count = 0.0, planned_well = 0.0;
   for (int i = 0; i < 160; ++i) {
@@ -108,7 +108,7 @@ TEST_CASE("the bound of the series is above the true error on random systems",
   CHECK(planned_well >= 0.95 * count);
 }
 
-TEST_CASE("without its truncation the bound is that of the rounding", "[integrate][taylor][random]") {
+TEST_CASE("without its truncation the bound is that of the rounding", "[integrate][taylor][random][slow]") {
   RandomSystems systems(22);
   for (int i = 0; i < 80; ++i) {
     const auto system = canonical(systems.next());
