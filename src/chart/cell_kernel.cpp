@@ -1,7 +1,6 @@
 #include <immintrin.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +8,7 @@
 
 #include "base/constants.hpp"
 #include "base/dispatch.hpp"
+#include "chart/block_error.hpp"
 #include "chart/cell_row.hpp"
 #include "strutt/floquet/verdict.hpp"
 
@@ -19,18 +19,8 @@ constexpr double kStable = static_cast<double>(Verdict::stable),
                  kUnstable = static_cast<double>(Verdict::unstable),
                  kUnresolved = static_cast<double>(Verdict::unresolved);
 
-/// Bounds that the errors of a row are compared with: four an octave, the same whatever the width of a
-/// register. This is the last one not above `error` that is a power of two.
-double first_bound(double error) {
-  if (!(error < kInfinity)) return kInfinity;
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(error) & 0x7ff0000000000000);
-}
-
-/// The one after; the error allowed is one of them, and the last.
-double next_bound(double bound, double allowed) {
-  const double next = std::bit_cast<double>(std::bit_cast<std::uint64_t>(bound) + (std::uint64_t{1} << 50));
-  return bound < allowed ? std::min(next, allowed) : kInfinity;
-}
+/// Cells whose errors have a bound in common; whole registers of any width.
+constexpr std::size_t kBlockCells = 120;
 
 #define STRUTT_KERNEL "chart/cell_kernel.inc"
 #include "base/every_instruction_set.inc"

@@ -55,11 +55,10 @@ struct CellRow {
   double *error = nullptr, *verdict = nullptr, *margin = nullptr, *growth = nullptr, *winding = nullptr,
          *trace = nullptr;
 
-  double allowed_error = std::numeric_limits<double>::infinity();
-  /// The largest error of all cells, NaN if one is; if `error` has no place, a bound of them at most a quarter above it,
-  /// infinite where that is above the allowed one.
+  /// The largest error of all cells, NaN if one is; if `error` has no place, a bound of them made of what neighbouring
+  /// cells have in common.
   double largest_error = 0.0;
-  bool all_resolved = false;   ///< no verdict is `unresolved`
+  bool all_resolved = false;  ///< no verdict is `unresolved`, which without `error` are some more
 };
 
 /// Growth, in ln|D| and h, that `plain_cells` takes.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace strutt::chebyshev {
 
@@ -36,6 +37,14 @@ void polynomials(std::span<const double> t, int degree, Eigen::MatrixXd& result)
   for (int k = 2; k <= degree; ++k) {
     result.col(k) = (2.0 * argument * result.col(k - 1).array() - result.col(k - 2).array()).matrix();
   }
+}
+
+Eigen::MatrixXd restriction(int n, double low, double high) {
+  std::vector<double> t;
+  for (int j = 0; j <= n; ++j) t.push_back(point(j, n, low, high));
+  Eigen::MatrixXd there;
+  polynomials(t, n, there);
+  return transform(n) * there;
 }
 
 }  // namespace strutt::chebyshev

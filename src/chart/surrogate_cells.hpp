@@ -49,7 +49,7 @@ class SurrogateCells {
     bool agree = true;
   };
   struct Worker {
-    std::vector<double> factors, error, verdict, quarter_turns;
+    std::vector<double> factors, error, quarter_turns;
     CellRow cells;
     CellColumns columns;
     std::unique_ptr<HillModel> model;    // kind half_period: to count turns

@@ -110,7 +110,6 @@ void SurrogateCells::prepare(const GridPiece& tile, std::size_t r, Worker& worke
   std::copy_n(box.error.begin(), 4, cells.factor_error.begin());
   cells.exponent = box.exponent;
   cells.box_kappa = box.kappa;
-  cells.allowed_error = request_.tolerance;
   cells.shifted = *surrogate_.even_phase() != 0.0;
   cells.damped = half_damping_.largest() > 0.0;
   cells.quarter_turns = nullptr;
@@ -136,14 +135,14 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
   if (cells.largest_error <= request_.tolerance && (!with_verdict_ || cells.all_resolved))
     return {tile.columns, cells.largest_error};
   worker.error.resize(kTileColumns);
-  worker.verdict.resize(kTileColumns);
+  double* const verdict = cells.verdict;
   leave_out_results(cells);
   cells.error = worker.error.data();
-  cells.verdict = worker.verdict.data();
+  cells.verdict = verdict;
   compute(cells, plain);
   Count count;
   for (std::size_t c = 0; c < tile.columns; ++c) {
-    const bool open = with_verdict_ && worker.verdict[c] == static_cast<double>(Verdict::unresolved);
+    const bool open = verdict != nullptr && verdict[c] == static_cast<double>(Verdict::unresolved);
     if (worker.error[c] <= request_.tolerance && !open) {
       count += {1, worker.error[c]};
     } else {

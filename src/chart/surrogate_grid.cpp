@@ -32,6 +32,8 @@ void weigh(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, dou
   }
 }
 
+constexpr std::size_t kPanelColumns = 8 * GridPiece::kTileColumns;
+
 /// Pieces of about the same width, of whole tiles.
 std::size_t width_of_pieces(std::size_t columns) {
   const std::size_t pieces = (columns + GridPiece::kMostColumns - 1) / GridPiece::kMostColumns;
@@ -56,7 +58,7 @@ SurrogateGrid::SurrogateGrid(const std::vector<SurrogateBox>& boxes, const Axis&
     if (!box.interpolated) continue;
     const Range columns = indices_in(x_, box.low[0], box.high[0], box.high[0] == whole.high[0]);
     const Range rows = indices_in(y_, box.low[1], box.high[1], box.high[1] == whole.high[1]);
-    if (!columns.empty() && !rows.empty()) boxes_.push_back({&box, columns, rows, {}, {}, {}});
+    if (!columns.empty() && !rows.empty()) boxes_.push_back({box, columns, rows, {}, {}});
   }
 }
 
@@ -73,36 +75,46 @@ SurrogateGrid::Range SurrogateGrid::indices_in(const std::vector<double>& coordi
           static_cast<std::size_t>(last - coordinates.begin())};
 }
 
-void SurrogateGrid::tabulate(Box& box) const {
-  const std::size_t count = box.columns.size();
-  const auto terms = static_cast<std::size_t>(box.box->coefficients[0].rows());
-  std::vector<double> t;
-  for (std::size_t i = box.columns.first; i < box.columns.last; ++i) t.push_back(local(*box.box, 0, x_[i]));
-  Eigen::MatrixXd columns;
-  chebyshev::polynomials(t, static_cast<int>(terms) - 1, columns);
-  box.basis.resize(terms * count);
-  for (std::size_t k = 0; k < terms; ++k) {
-    for (std::size_t c = 0; c < count; ++c)
-      box.basis[k * count + c] = columns(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k));
+void SurrogateGrid::cut_into_panels(Box& box) const {
+  const std::vector<double> error = box.box.error;
+  for (std::size_t c = box.columns.first; c < box.columns.last; c += kPanelColumns) {
+    box.panels.push_back(panel(box.box, {c, std::min(c + kPanelColumns, box.columns.last)}));
+    for (std::size_t f = 0; f < error.size(); ++f)
+      box.box.error[f] = std::max(box.box.error[f], error[f] + box.panels.back().functions.error[f]);
   }
 }
 
+SurrogateGrid::Panel SurrogateGrid::panel(const SurrogateBox& box, const Range& columns) const {
+  std::vector<double> t;
+  for (std::size_t i = columns.first; i < columns.last; ++i) t.push_back(local(box, 0, x_[i]));
+  const auto [low, high] = std::minmax(t.front(), t.back());
+  Panel result{panel_of(box, low, high), columns, {}, {}};
+  const double middle = 0.5 * (result.functions.low + result.functions.high),
+               half = 0.5 * (result.functions.high - result.functions.low);
+  for (double& place : t) place = (place - middle) / half;
+  Eigen::MatrixXd values;
+  chebyshev::polynomials(t, static_cast<int>(result.terms()) - 1, values);
+  result.basis.assign(values.data(), values.data() + values.size());
+  return result;
+}
+
 void SurrogateGrid::contract(Box& box, const Range& rows) const {
-  const auto& coefficients = box.box->coefficients;
-  const auto terms = static_cast<std::size_t>(coefficients[0].rows());
-  const std::size_t functions = coefficients.size(), stride = rows.size() * functions;
-  std::vector<double> t, polynomials(static_cast<std::size_t>(coefficients[0].cols())), sums(terms);
-  for (std::size_t j = rows.first; j < rows.last; ++j) t.push_back(local(*box.box, 1, y_[j]));
+  const std::size_t functions = box.box.coefficients.size(), stride = rows.size() * functions;
+  std::vector<double> t, polynomials(static_cast<std::size_t>(box.box.coefficients[0].cols())), sums;
+  for (std::size_t j = rows.first; j < rows.last; ++j) t.push_back(local(box.box, 1, y_[j]));
   Eigen::MatrixXd values;
   chebyshev::polynomials(t, static_cast<int>(polynomials.size()) - 1, values);
-  box.weights.resize(terms * stride);
   box.weighted = rows;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t l = 0; l < polynomials.size(); ++l)
-      polynomials[l] = values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(l));
-    for (std::size_t f = 0; f < functions; ++f) {
-      weigh(coefficients[f], polynomials, sums.data());
-      for (std::size_t k = 0; k < terms; ++k) box.weights[k * stride + r * functions + f] = sums[k];
+  for (auto& panel : box.panels) {
+    panel.weights.resize(panel.terms() * stride);
+    sums.resize(panel.terms());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (std::size_t l = 0; l < polynomials.size(); ++l)
+        polynomials[l] = values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(l));
+      for (std::size_t f = 0; f < functions; ++f) {
+        weigh(panel.functions.coefficients[f], polynomials, sums.data());
+        for (std::size_t k = 0; k < sums.size(); ++k) panel.weights[k * stride + r * functions + f] = sums[k];
+      }
     }
   }
 }
@@ -112,9 +124,9 @@ std::vector<GridPiece> SurrogateGrid::pieces(std::size_t first_row, std::size_t 
   for (std::size_t b = 0; b < boxes_.size(); ++b) {
     auto& box = boxes_[b];
     const Range here{std::max(box.rows.first, first_row), std::min(box.rows.last, first_row + rows)};
-    if (box.rows.last <= first_row) box.basis = {};  // its rows are over
+    if (box.rows.last <= first_row) box.panels = {};  // its rows are over
     if (here.empty()) continue;
-    if (box.basis.empty()) tabulate(box);
+    if (box.panels.empty()) cut_into_panels(box);
     contract(box, here);
     const std::size_t width = width_of_pieces(box.columns.size());
     for (std::size_t row = here.first; row < here.last; row += GridPiece::kMostRows) {
@@ -128,16 +140,21 @@ std::vector<GridPiece> SurrogateGrid::pieces(std::size_t first_row, std::size_t 
 
 void SurrogateGrid::evaluate(const GridPiece& piece, double* values, std::size_t stride) const {
   const Box& box = boxes_[piece.box];
-  const std::size_t functions = box.box->coefficients.size();
-  detail::evaluate({.basis = box.basis.data() + (piece.first_column - box.columns.first),
-                    .basis_stride = box.columns.size(),
-                    .weights = box.weights.data() + (piece.first_row - box.weighted.first) * functions,
-                    .weights_stride = box.weighted.size() * functions,
-                    .rows = piece.rows * functions,
-                    .columns = piece.columns,
-                    .terms = static_cast<std::size_t>(box.box->coefficients[0].rows()),
-                    .values = values,
-                    .stride = stride});
+  const std::size_t functions = box.box.coefficients.size(), last = piece.first_column + piece.columns;
+  for (std::size_t column = piece.first_column; column < last;) {
+    const Panel& panel = box.panels[(column - box.columns.first) / kPanelColumns];
+    const std::size_t end = std::min(last, panel.columns.last);
+    detail::evaluate({.basis = panel.basis.data() + (column - panel.columns.first),
+                      .basis_stride = panel.columns.size(),
+                      .weights = panel.weights.data() + (piece.first_row - box.weighted.first) * functions,
+                      .weights_stride = box.weighted.size() * functions,
+                      .rows = piece.rows * functions,
+                      .columns = end - column,
+                      .terms = panel.terms(),
+                      .values = values + (column - piece.first_column),
+                      .stride = stride});
+    column = end;
+  }
 }
 
 }  // namespace strutt

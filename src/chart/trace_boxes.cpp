@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/constants.hpp"
+#include "chart/box_panel.hpp"
 #include "chart/chebyshev.hpp"
 
 namespace strutt {
@@ -79,7 +80,7 @@ SurrogateBox with_trace(const SurrogateBox& box, double tolerance, const TraceSc
   const auto error_with = [&](double dropped) {
     return kBetweenPoints * ((2.0 * square * of_factors + rounding + dropped) / size).maxCoeff();
   };
-  const double left = tolerance - error_with(0.0);
+  const double left = tolerance / kPanelGrowth - error_with(0.0);
   if (!(left >= 0.0)) return box;
   const double error = error_with(cut(trace, kShareOfCut * left));
   SurrogateBox result = box;

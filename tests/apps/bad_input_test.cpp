@@ -5,7 +5,7 @@
 #include "support/paths.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::bad_input_test {
 namespace {
 
 constexpr int kFileError = 3;
@@ -292,4 +292,4 @@ TEST_CASE("the unit of a column is taken for what it says", "[apps][bad_input]")
              {"in.csv:1:1", "pendulum.length", "unknown unit 'parsec'"});
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::bad_input_test

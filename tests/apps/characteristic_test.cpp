@@ -8,7 +8,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::characteristic_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -89,4 +89,4 @@ TEST_CASE("characteristic tells its plan without computing", "[apps][characteris
   CHECK_THAT(result.out, Catch::Matchers::Contains("rows: 10001") && Catch::Matchers::Contains("2 q cos 2t"));
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::characteristic_test

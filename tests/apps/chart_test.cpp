@@ -9,7 +9,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::chart_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -290,4 +290,4 @@ TEST_CASE("a chart by surrogate is the one point by point, and what cannot have 
   CHECK(csv_comment(refused.out, "method") == "exact");
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::chart_test

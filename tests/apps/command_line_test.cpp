@@ -7,7 +7,7 @@
 #include "support/paths.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::command_line_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -238,4 +238,4 @@ TEST_CASE("the example in the help of every command works", "[apps][command_line
   }
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::command_line_test

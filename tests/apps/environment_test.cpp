@@ -7,7 +7,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::environment_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -81,4 +81,4 @@ TEST_CASE("the sines of an older processor move results within their bounds", "[
   CHECK(largest <= 1.0);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::environment_test

@@ -7,7 +7,7 @@
 
 #include "support/scene_command.hpp"
 
-namespace strutt::test {
+namespace strutt::test::margin_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -222,4 +222,4 @@ TEST_CASE("margin tells its plan and writes its file", "[apps][margin]") {
   CHECK_THAT(command.run({"--help"}).out, Catch::Matchers::Contains("strutt margin scene.toml"));
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::margin_test

@@ -6,7 +6,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::motion_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -120,4 +120,4 @@ TEST_CASE("a motion as JSON", "[apps][motion]") {
   CHECK(json["rows"][0]["outcome"] == "converged");
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::motion_test

@@ -7,6 +7,8 @@
 #include "io/scratch.hpp"
 #include "support/paths.hpp"
 
+namespace strutt::test::normal_form_test {
+
 namespace {
 
 struct Answer {
@@ -82,3 +84,5 @@ TEST_CASE("normal-form ends with the code of the contract", "[apps][free_pendulu
   ends(normal_form("alpha,f2_30\n1,nan\n"), 3, ":2:");
   ends(normal_form("alpha,f2_20\n1,1e200\n"), 1, "-inf");
 }
+
+}  // namespace strutt::test::normal_form_test

@@ -11,7 +11,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::output_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -293,4 +293,4 @@ TEST_CASE("an excited portrait has the bar, too", "[apps][output][progress]") {
   CHECK(bar.ends_with("\r\x1b[K"));
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::output_test

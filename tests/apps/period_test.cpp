@@ -9,7 +9,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::period_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -252,4 +252,4 @@ TEST_CASE("N28: a phase that is not resolved ends with exit code 1", "[apps][mot
   CHECK(lost == Words{"1e+308", "nan", "nan", lost[3], "inf", "tolerance_not_reached"});
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::period_test

@@ -9,7 +9,8 @@
 #include "io/scratch.hpp"
 #include "support/paths.hpp"
 
-namespace strutt {
+namespace strutt::test::portrait_test {
+
 namespace {
 
 using test::content_of;
@@ -197,4 +198,4 @@ TEST_CASE("portrait refuses wrong flags, scenes and places", "[apps][portrait][m
   CHECK(scratch.names().size() == 7);  // the scenes and tables above, .out and .err
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::portrait_test

@@ -7,7 +7,7 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt::test {
+namespace strutt::test::stability_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -234,4 +234,4 @@ TEST_CASE("a tolerance that is not reached is exit code 1 and said in the row", 
   CHECK(result.code == (reached && !unresolved ? 0 : 1));
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::stability_test

@@ -9,7 +9,7 @@
 
 #include "support/scene_command.hpp"
 
-namespace strutt::test {
+namespace strutt::test::tongues_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -200,4 +200,4 @@ TEST_CASE("tongues names the flag or the cell that is wrong", "[apps][tongues]")
   CHECK(command.run("mathieu.delta=0:1", {"--at", command.write("b.csv", "mathieu.delta\n1\n")}).code == 3);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::tongues_test

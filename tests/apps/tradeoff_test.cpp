@@ -6,7 +6,8 @@
 #include "io/scratch.hpp"
 #include "support/program.hpp"
 
-namespace strutt {
+namespace strutt::test::tradeoff_test {
+
 namespace {
 
 using test::content_of;
@@ -116,4 +117,4 @@ TEST_CASE("tradeoff refuses what it cannot measure", "[apps][tradeoff][misuse]")
   CHECK(tradeoff("[mathieu]\ndelta = x\n", {}).code == 3);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::tradeoff_test

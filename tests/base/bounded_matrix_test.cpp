@@ -4,7 +4,8 @@
 
 #include "strutt/base/bounded_matrix.hpp"
 
-using namespace strutt;
+namespace strutt::test::bounded_matrix_test {
+
 using Eigen::MatrixXd;
 using MatrixXl = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
@@ -93,3 +94,5 @@ TEST_CASE("growth far beyond double keeps value and relative bound", "[base][bou
   CHECK(relative >= 300e-13);
   CHECK(relative <= 300.0 * (1.01e-13 + 0x1p-52) * 1.001);
 }
+
+}  // namespace strutt::test::bounded_matrix_test

@@ -9,7 +9,8 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::error_test {
+
 using Catch::Contains;
 
 TEST_CASE("a refused value is named with its field and its range", "[base][error]") {
@@ -64,3 +65,5 @@ TEST_CASE("an unknown word is answered with the nearest one, else with all", "[b
   CHECK(quoted_list(std::vector<std::string>(12, "a")).ends_with(", 'a'"));
   CHECK(quoted_list(std::vector<std::string>(13, "a")).ends_with("'a', ... (13 in all)"));
 }
+
+}  // namespace strutt::test::error_test

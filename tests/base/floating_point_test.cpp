@@ -6,7 +6,7 @@
 
 #include "support/host_environment.hpp"
 
-namespace strutt::test {
+namespace strutt::test::floating_point_test {
 namespace {
 
 /// Values that the compiler does not know.
@@ -70,4 +70,4 @@ TEST_CASE("a double is rounded once", "[base][extreme][N45]") {
   CHECK(opaque(1.0) + opaque(0x1p-53 + 0x1p-66) == 1.0 + 0x1p-52);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::floating_point_test

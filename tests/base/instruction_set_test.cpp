@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-using namespace strutt;
+namespace strutt::test::instruction_set_test {
 
 TEST_CASE("the instruction set is one that has a name, and the one asked for", "[base][simd]") {
   const std::string name(to_string(instruction_set()));
@@ -12,3 +12,5 @@ TEST_CASE("the instruction set is one that has a name, and the one asked for", "
   const char* const asked = std::getenv("STRUTT_ISA");
   if (asked != nullptr && *asked != '\0') CHECK(name == asked);
 }
+
+}  // namespace strutt::test::instruction_set_test

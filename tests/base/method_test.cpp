@@ -4,7 +4,8 @@
 #include "strutt/base/error.hpp"
 #include "strutt/base/method.hpp"
 
-using namespace strutt;
+namespace strutt::test::method_test {
+
 using Catch::Contains;
 
 TEST_CASE("method names read back", "[base][method]") {
@@ -21,3 +22,5 @@ TEST_CASE("an unknown method is refused with the known ones", "[base][method]") 
   CHECK_THROWS_AS(method_from_string(""), InvalidInput);
   CHECK_THROWS_AS(method_from_string("Auto"), InvalidInput);
 }
+
+}  // namespace strutt::test::method_test

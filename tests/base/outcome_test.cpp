@@ -4,7 +4,7 @@
 
 #include "strutt/base/outcome.hpp"
 
-using namespace strutt;
+namespace strutt::test::outcome_test {
 
 TEST_CASE("every outcome has a name of its own", "[base][outcome]") {
   std::set<std::string> names;
@@ -17,3 +17,5 @@ TEST_CASE("every outcome has a name of its own", "[base][outcome]") {
   CHECK(to_string(Outcome::cancelled) == "cancelled");
   CHECK(static_cast<int>(Outcome::failed) + 1 == kOutcomeCount);
 }
+
+}  // namespace strutt::test::outcome_test

@@ -8,7 +8,7 @@
 
 #include "strutt/base/parallel.hpp"
 
-using namespace strutt;
+namespace strutt::test::parallel_test {
 
 namespace {
 
@@ -151,3 +151,5 @@ TEST_CASE("thread_count", "[base][threads]") {
   CHECK(thread_count({.threads = 3}) == 3);
   CHECK(thread_count({.threads = 0}) >= 1);
 }
+
+}  // namespace strutt::test::parallel_test

@@ -5,7 +5,8 @@
 
 #include "strutt/base/scaled_matrix.hpp"
 
-using namespace strutt;
+namespace strutt::test::scaled_matrix_test {
+
 using Eigen::MatrixXd;
 
 namespace {
@@ -77,3 +78,5 @@ TEST_CASE("zero and non-finite matrices keep what they are", "[base][scaled]") {
     CHECK_FALSE((m * ScaledMatrix::identity(2)).mantissa.allFinite());
   }
 }
+
+}  // namespace strutt::test::scaled_matrix_test

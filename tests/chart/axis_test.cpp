@@ -7,7 +7,8 @@
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::axis_test {
+
 namespace {
 
 constexpr auto kLog = AxisScale::logarithmic;
@@ -77,4 +78,4 @@ TEST_CASE("axes that make no sense are refused, with the field and the range", "
   }
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::axis_test

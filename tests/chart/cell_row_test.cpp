@@ -10,7 +10,8 @@
 #include "chart/cell_columns.hpp"
 #include "strutt/floquet/verdict.hpp"
 
-namespace strutt {
+namespace strutt::test::cell_row_test {
+
 namespace {
 
 /// Factors with u1 u2' - u1' u2 = 1 over many sizes and all signs, with their turns.
@@ -99,31 +100,44 @@ TEST_CASE("cells in vector code are those of single points", "[chart][simd]") {
   }
 }
 
-TEST_CASE("a row's largest error is bounded without dividing", "[chart][simd]") {
-  const bool shifted = GENERATE(false, true);
+/// The same, changing slowly from cell to cell, as on a chart: a tongue and the bands beside it.
+Factors smooth_factors(std::size_t count) {
+  Factors f;
+  for (std::size_t c = 0; c < count; ++c) {
+    const double a = 1.0 + 0.002 * static_cast<double>(c), s = std::exp(0.002 * static_cast<double>(c));
+    f.u1.push_back(std::cos(a) * s);
+    f.u2.push_back(-std::sin(a) / s);
+    f.du1.push_back(std::sin(a) * s);
+    f.du2.push_back(std::cos(a) / s);
+    f.turns.push_back(0.0);
+  }
+  return f;
+}
+
+TEST_CASE("errors are bounded by what blocks of cells have in common", "[chart][simd]") {
+  const bool shifted = GENERATE(false, true), is_smooth = GENERATE(false, true);
   const double h = GENERATE(0.0, 0.3);
-  const Factors f = random_factors(kCells + 8, 9.0);
+  const std::size_t cells = GENERATE(std::size_t{1}, std::size_t{5}, std::size_t{64}, kCells);
+  const Factors f = is_smooth ? smooth_factors(kCells + 8) : random_factors(kCells + 8, 9.0);
   CellColumns columns;
   columns.set(constant(h), constant(0.5), 0, 0, kCells);
-  const auto bound = [&](std::size_t cells, double* error, double allowed) {
-    Row row(f, cells);
-    row.quarter_turns = f.turns.data();
-    row.factor_error = {1e-12, 3e-12, 2e-12, 1e-13};
-    row.shifted = shifted;
-    row.damped = h != 0.0;
-    row.error = error;
-    row.allowed_error = allowed;
-    columns.give(row, 0);
-    plain_cells(row);
-    return row.largest_error;
-  };
-  for (const std::size_t cells : {std::size_t{1}, std::size_t{5}, std::size_t{64}, kCells}) {
-    std::vector<double> errors(cells);
-    const double largest = bound(cells, errors.data(), 1.0), free = bound(cells, nullptr, 1.0);
-    CHECK(free >= largest * (1.0 - 1e-15));
-    CHECK(free <= 1.25 * largest);
-    CHECK(bound(cells, nullptr, 1.01 * largest) <= 1.01 * largest);  // no row is lost to the steps of the bound
-    CHECK(bound(cells, nullptr, 0.99 * largest) > 0.99 * largest);
+  Row each(f, cells), in_blocks(f, cells);
+  in_blocks.error = nullptr;
+  for (Row* const row : {&each, &in_blocks}) {
+    row->quarter_turns = f.turns.data();
+    row->factor_error = {1e-12, 3e-12, 2e-12, 1e-13};
+    row->shifted = shifted;
+    row->damped = h != 0.0;
+    columns.give(*row, 0);
+    plain_cells(*row);
+  }
+  CHECK(in_blocks.largest_error >= each.largest_error * (1.0 - 1e-15));
+  if (is_smooth) CHECK(in_blocks.largest_error <= 1.5 * each.largest_error);
+  for (std::size_t c = 0; c < cells; ++c) {
+    if (in_blocks.verdict[c] != static_cast<double>(Verdict::unresolved))
+      CHECK(in_blocks.verdict[c] == each.verdict[c]);
+    CHECK(in_blocks.margin[c] == each.margin[c]);
+    CHECK(in_blocks.growth[c] == each.growth[c]);
   }
 }
 
@@ -132,8 +146,10 @@ TEST_CASE("a row with a cell that is no number has no bound", "[chart][simd]") {
   f.u1[11] = std::nan("");
   CellColumns columns;
   columns.set(constant(0.0), constant(1.0), 0, 0, 16);
+  const bool each = GENERATE(false, true);
   Row row(f, 16);
-  row.winding = row.error = nullptr;
+  row.winding = nullptr;
+  if (!each) row.error = nullptr;
   columns.give(row, 0);
   plain_cells(row);
   CHECK_FALSE(row.largest_error <= 1e300);
@@ -227,4 +243,4 @@ TEST_CASE("logarithm and arc sine in vector code are right to a few units", "[ch
   CHECK(largest_angle <= 5.0);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::cell_row_test

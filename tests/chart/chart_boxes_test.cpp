@@ -9,7 +9,8 @@
 #include "strutt/io/scene_file.hpp"
 #include "support/reference.hpp"
 
-namespace strutt {
+namespace strutt::test::chart_boxes_test {
+
 namespace {
 
 using reference::Real;
@@ -104,4 +105,4 @@ TEST_CASE("a wide chart of the pendulum keeps its bounds at 2000 random cells", 
             {"support.amplitude", 0.0, 0.5, 2048}, "pendulum_box");
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::chart_boxes_test

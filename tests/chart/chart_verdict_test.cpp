@@ -5,7 +5,7 @@
 #include "strutt/chart/stability_chart.hpp"
 #include "support/hill_edges.hpp"
 
-namespace strutt::test {
+namespace strutt::test::chart_verdict_test {
 
 TEST_CASE("no wrong verdict among a million cells of a chart by surrogate",
           "[chart][surrogate][stability_chart][extreme][N04]") {
@@ -37,4 +37,4 @@ TEST_CASE("no wrong verdict among a million cells of a chart by surrogate",
   CHECK(decided >= cells - 10);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::chart_verdict_test

@@ -6,7 +6,7 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
 
-namespace strutt::test {
+namespace strutt::test::closing_damping_test {
 namespace {
 
 Scene mathieu_scene(double epsilon, double damping = 0.0) {
@@ -113,4 +113,4 @@ TEST_CASE("the damping of the scene does not count, and what has none is refused
   CHECK_THROWS_AS(closing_damping(linear, {"linear.period", 1.0, 2.0}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::closing_damping_test

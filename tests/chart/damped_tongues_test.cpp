@@ -9,7 +9,7 @@
 #include "support/reference.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::damped_tongues_test {
 namespace {
 
 using std::numbers::pi;
@@ -174,4 +174,4 @@ TEST_CASE("next to the tip the width says how uncertain it is", "[chart][tongues
   }
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::damped_tongues_test

@@ -12,8 +12,7 @@
 #include "support/host_environment.hpp"
 #include "support/models.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::environment_test {
 
 namespace {
 
@@ -110,3 +109,5 @@ TEST_CASE("charts do not depend on the environment of the host, nor do their thr
   const auto method = GENERATE(Method::surrogate, Method::propagator);
   check_same([method] { return of_chart(method); });
 }
+
+}  // namespace strutt::test::environment_test

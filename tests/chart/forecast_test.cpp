@@ -6,7 +6,8 @@
 #include "strutt/chart/stability_chart.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::forecast_test {
+
 namespace {
 
 Scene scene_of(const std::string& text) { return parse_scene(text, "scene").scene; }
@@ -175,4 +176,4 @@ TEST_CASE("a forecast of a method that does not fit is refused", "[chart][plan]"
   CHECK_THROWS_AS(forecast_point(linear_model(scene_of(kMathieu)), {.tolerance = 1.0}), InvalidInput);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::forecast_test

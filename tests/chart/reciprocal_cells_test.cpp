@@ -8,7 +8,8 @@
 #include "chart/surrogate_box.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::reciprocal_cells_test {
+
 namespace {
 
 Scene scene_of(const std::string& damping, const std::string& coupling = "-0.3") {
@@ -91,4 +92,4 @@ TEST_CASE("a chart of two coupled pendulums leaves no open verdict that the engi
   CHECK(open == 0);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::reciprocal_cells_test

@@ -7,7 +7,8 @@
 
 #include "support/reference.hpp"
 
-namespace strutt {
+namespace strutt::test::reference_monodromy_test {
+
 namespace {
 
 using judge::Real;
@@ -235,4 +236,4 @@ TEST_CASE("The judge stops when it is told to", "[chart][tradeoff]") {
   CHECK_FALSE(judge::monodromy(judge::equation_of(scene), &cancel).has_value());
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::reference_monodromy_test

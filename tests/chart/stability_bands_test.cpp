@@ -9,7 +9,7 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::stability_bands_test {
 namespace {
 
 Verdict verdict_at(Scene scene, const std::string& path, double value) {
@@ -131,4 +131,4 @@ TEST_CASE("bands refuses what it cannot answer", "[chart][bands]") {
   CHECK_THROWS_AS(stability_bands(scene, {"support.frequency", 1.0, 2.0}, {.samples = 1}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::stability_bands_test

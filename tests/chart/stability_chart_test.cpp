@@ -11,7 +11,8 @@
 #include "strutt/floquet/stability.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::stability_chart_test {
+
 namespace {
 
 const std::vector<Layer> kAll{Layer::verdict,      Layer::growth, Layer::winding,
@@ -289,4 +290,4 @@ TEST_CASE("layers have names, units and kinds", "[chart][stability_chart]") {
   CHECK_THROWS_AS(layer_from_string("Verdict"), InvalidInput);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::stability_chart_test

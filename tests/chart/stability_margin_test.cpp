@@ -9,7 +9,7 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::stability_margin_test {
 namespace {
 
 Scene square_scene(double mean, double amplitude) {
@@ -264,4 +264,4 @@ TEST_CASE("margin refuses what it cannot answer", "[chart][margin]") {
   CHECK_THROWS_AS(stability_margin(mathieu_scene(NAN, 0.4), {"mathieu.delta"}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::stability_margin_test

@@ -7,7 +7,8 @@
 #include "chart/hill_nodes.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::surrogate_build_test {
+
 namespace {
 
 constexpr double kTolerance = 1e-8;
@@ -53,4 +54,4 @@ TEST_CASE("a box that fails its check is left to point by point and says so", "[
   CHECK(Surrogate(right.data).monodromy(2.0, 0.5));
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::surrogate_build_test

@@ -9,7 +9,8 @@
 #include "strutt/floquet/verdict.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::surrogate_chart_test {
+
 namespace {
 
 const std::vector<Layer> kAll{Layer::verdict,      Layer::growth, Layer::winding,
@@ -290,4 +291,4 @@ TEST_CASE("a surrogate chart is cancelled while it is built",
   CHECK(compute_chart(mathieu(), request, [](const ChartStrip&) { FAIL("a strip"); }).cancelled);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::surrogate_chart_test

@@ -10,7 +10,8 @@
 #include "strutt/chart/surrogate.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::surrogate_points_test {
+
 namespace {
 
 using Points = std::vector<std::array<double, 2>>;
@@ -117,4 +118,4 @@ TEST_CASE("entries are the sums of Chebyshev polynomials, within their bound", "
   }
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::surrogate_points_test

@@ -12,7 +12,7 @@
 #include "support/reference.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt {
+namespace strutt::test::surrogate_test {
 
 using test::check_within;
 namespace {
@@ -288,4 +288,4 @@ TEST_CASE("a cancelled surrogate says so", "[chart][surrogate][threads]") {
   CHECK(surrogate.cancelled());
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::surrogate_test

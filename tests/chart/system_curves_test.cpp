@@ -7,7 +7,7 @@
 #include "strutt/chart/tongue_curves.hpp"
 #include "strutt/floquet/stability.hpp"
 
-namespace strutt::test {
+namespace strutt::test::system_curves_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -128,4 +128,4 @@ TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart
   for (std::size_t i = 0; i < 4; ++i) CHECK(found[i] == Approx(resonances[i]).epsilon(1e-13).margin(0.0));
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::system_curves_test

@@ -8,7 +8,7 @@
 #include "strutt/chart/tongues.hpp"
 #include "strutt/floquet/stability.hpp"
 
-namespace strutt::test {
+namespace strutt::test::system_tongues_test {
 namespace {
 
 using Eigen::Matrix2d;
@@ -212,4 +212,4 @@ TEST_CASE("systems have no index", "[chart][tongues]") {
   CHECK(tongue_method(scene, line) == Method::propagator);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::system_tongues_test

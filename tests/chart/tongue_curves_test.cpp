@@ -8,7 +8,7 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
 
-namespace strutt::test {
+namespace strutt::test::tongue_curves_test {
 namespace {
 
 using std::numbers::pi;
@@ -165,4 +165,4 @@ TEST_CASE("tongue_curves refuses what makes no window", "[chart][tongues]") {
   CHECK_THROWS_AS(tongue_curves(scene, along, {"mathieu.damping", -1.0, 0.0}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::tongue_curves_test

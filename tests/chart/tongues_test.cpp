@@ -8,7 +8,7 @@
 #include "support/ratchet.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::tongues_test {
 namespace {
 
 Verdict verdict_at(Scene scene, const std::string& path, double value) {
@@ -218,4 +218,4 @@ TEST_CASE("tongues refuses what it cannot answer", "[chart][tongues]") {
   CHECK_THROWS_AS(tongues(strong, {"hill.mean", 0.0, 1.0}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::tongues_test

@@ -7,7 +7,8 @@
 
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::tradeoff_test {
+
 namespace {
 
 Scene mathieu(double delta, double epsilon, double damping = 0.0) {
@@ -245,4 +246,4 @@ TEST_CASE("What cannot be measured is refused", "[chart][tradeoff][misuse]") {
   CHECK(expected_seconds(scene, request) > 0.0);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::tradeoff_test

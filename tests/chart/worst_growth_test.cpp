@@ -9,7 +9,7 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::worst_growth_test {
 namespace {
 
 Scene square_scene() {
@@ -111,4 +111,4 @@ TEST_CASE("worst growth refuses what it cannot answer", "[chart][box]") {
   CHECK_THROWS_AS(worst_growth(scene, {{"support.frequency", 2.0, 3.0}}, {.evaluations = 1}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::worst_growth_test

@@ -10,7 +10,8 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::both_routes_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -121,3 +122,5 @@ TEST_CASE("The frequency from which an inverted rod stands, by both routes",
   check_within("frequency from which an inverted rod stands: difference of both routes (relative)",
                std::abs(high / by_edges - 1.0), 1e-14);
 }
+
+}  // namespace strutt::test::both_routes_test

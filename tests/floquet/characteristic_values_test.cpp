@@ -8,7 +8,8 @@
 #include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
-using namespace strutt;
+namespace strutt::test::characteristic_values_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -224,3 +225,5 @@ TEST_CASE("Orders and parameters out of range are refused by name", "[floquet][c
   CHECK_THROWS_AS(characteristic_values(0, 3, HUGE_VAL), InvalidInput);
   CHECK(characteristic_values(10'000, 10'000, -1e8).size() == 1);
 }
+
+}  // namespace strutt::test::characteristic_values_test

@@ -6,7 +6,8 @@
 #include "strutt/floquet/constant_propagator.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::constant_propagator_test {
+
 using strutt::test::check_close;
 using Real = boost::multiprecision::cpp_bin_float_100;
 
@@ -61,3 +62,5 @@ TEST_CASE("Strong growth does not overflow", "[floquet][extreme][N01][ratchet]")
   const double expected = 1e4 * 3.14159265358979323846 - std::log(2.0);
   check_close("N01 logarithm of an entry of exp(31415) (relative)", p.value.log_max_abs(), expected, 8e-16);
 }
+
+}  // namespace strutt::test::constant_propagator_test

@@ -9,7 +9,7 @@
 #include "support/hill_series.hpp"
 #include "support/ratchet.hpp"
 
-namespace strutt::test {
+namespace strutt::test::hill_discriminants_test {
 namespace {
 
 struct Points {
@@ -150,4 +150,4 @@ TEST_CASE("misuse of discriminants is refused", "[floquet][discriminants][error]
   CHECK_THROWS_AS(discriminants.compute({one, {one}}, value, error), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::hill_discriminants_test

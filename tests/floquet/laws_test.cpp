@@ -10,8 +10,7 @@
 #include "floquet/every_model.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::laws_test {
 
 namespace {
 
@@ -150,3 +149,5 @@ TEST_CASE("The multipliers' product is det M and their sum the trace", "[floquet
           1e-13 * std::max(1.0, std::abs(s.growth)) + (s.multipliers.size() > 2 ? log_error : 0.0));
   });
 }
+
+}  // namespace strutt::test::laws_test

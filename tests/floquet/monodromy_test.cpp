@@ -10,7 +10,8 @@
 #include "support/hill_series.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::monodromy_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -232,3 +233,5 @@ TEST_CASE("A stiffness of 1e4 and more: both components of the state keep their 
   }
   check_within("N14 error of M in the scaled state at delta up to 9e4", largest, 1e-12);
 }
+
+}  // namespace strutt::test::monodromy_test

@@ -8,7 +8,8 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::multipliers_test {
+
 using strutt::test::check_close;
 using strutt::test::check_within;
 
@@ -185,3 +186,5 @@ TEST_CASE("Matrices that are not finite do not reach LAPACK", "[floquet][multipl
     CHECK_THROWS_AS(system_multipliers(matrix), NumericalFailure);
   }
 }
+
+}  // namespace strutt::test::multipliers_test

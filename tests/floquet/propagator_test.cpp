@@ -9,8 +9,8 @@
 
 #include "floquet/every_model.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::propagator_test {
+
 using Eigen::MatrixXd;
 
 namespace {
@@ -160,3 +160,5 @@ TEST_CASE("Constant coefficients have the matrix exponential", "[floquet][law][k
     }
   }
 }
+
+}  // namespace strutt::test::propagator_test

@@ -8,7 +8,8 @@
 
 #include "strutt/floquet/verdict.hpp"
 
-namespace strutt {
+namespace strutt::test::reciprocal_sums_test {
+
 namespace {
 
 using Eigen::Matrix2d;
@@ -93,4 +94,4 @@ TEST_CASE("the sums of two uncoupled rotations are twice their cosines", "[floqu
   }
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::reciprocal_sums_test

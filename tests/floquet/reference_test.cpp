@@ -5,7 +5,8 @@
 #include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
-using namespace strutt;
+namespace strutt::test::reference_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -101,3 +102,5 @@ TEST_CASE("Trace of the Mathieu equation at (1, 0.5)", "[floquet][reference]") {
     }
   }
 }
+
+}  // namespace strutt::test::reference_test

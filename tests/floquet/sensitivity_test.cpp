@@ -9,7 +9,7 @@
 #include "strutt/model/model_derivative.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::sensitivity_test {
 namespace {
 
 struct SceneCase {
@@ -203,4 +203,4 @@ TEST_CASE("a phase and the moment have no effect, and the largest multiplier of 
   CHECK_THROWS_AS(sensitivity(engine, scene, "support.phase", {.tolerance = 1.0}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::sensitivity_test

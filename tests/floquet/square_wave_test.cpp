@@ -7,7 +7,7 @@
 #include "strutt/floquet/tongue_width.hpp"
 #include "support/reference.hpp"
 
-namespace strutt::test {
+namespace strutt::test::square_wave_test {
 namespace {
 
 using std::numbers::pi;
@@ -142,4 +142,4 @@ TEST_CASE("growth in narrow tongues of Meissner's equation", "[floquet][tongues]
   }
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::square_wave_test

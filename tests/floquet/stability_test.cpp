@@ -9,7 +9,8 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::stability_test {
+
 using strutt::test::check_close;
 using strutt::test::check_within;
 
@@ -197,3 +198,5 @@ TEST_CASE("Parts that were not asked for are not computed", "[floquet][cost]") {
   CHECK(result.matrix.size() == 0);
   CHECK(result.verdict == Verdict::unstable);
 }
+
+}  // namespace strutt::test::stability_test

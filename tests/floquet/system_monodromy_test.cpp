@@ -11,8 +11,8 @@
 #include "support/ratchet.hpp"
 #include "support/system_series.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::system_monodromy_test {
+
 using Eigen::MatrixXd;
 using reference::LongMatrix;
 
@@ -155,3 +155,5 @@ TEST_CASE("A cancelled system has no result", "[floquet][error]") {
     CHECK(std::isinf(m.error));
   }
 }
+
+}  // namespace strutt::test::system_monodromy_test

@@ -8,7 +8,8 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::tongue_edges_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -213,3 +214,5 @@ TEST_CASE("Coefficients and orders that do not fit are refused by name", "[floqu
     CHECK_THROWS_WITH(mean_of_winding(v, winding), Contains("winding"));
   CHECK(tongue_edges(PeriodicFunction::constant(3.0), 2, 2).at(0).upper.value == Approx(1.0).epsilon(1e-15));
 }
+
+}  // namespace strutt::test::tongue_edges_test

@@ -7,7 +7,7 @@
 #include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
-namespace strutt::test {
+namespace strutt::test::tongue_width_test {
 namespace {
 
 using reference::Real;
@@ -148,4 +148,4 @@ TEST_CASE("where the ways between the modes cancel the errors of the coefficient
   CHECK(single.relative_error <= 40.0 * kError);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::tongue_width_test

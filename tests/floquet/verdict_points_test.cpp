@@ -10,7 +10,8 @@
 #include "support/hill_edges.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::verdict_points_test {
+
 using strutt::test::check_within;
 using strutt::test::HillEdges;
 
@@ -218,3 +219,5 @@ TEST_CASE("no wrong verdict beside the edges of coefficients without symmetry",
   CHECK(tally.odd == 0);
   check_within("N04 share of points left unresolved next to edges without symmetry", tally.open_share(), 0.2);
 }
+
+}  // namespace strutt::test::verdict_points_test

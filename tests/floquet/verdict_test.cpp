@@ -6,7 +6,8 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::verdict_test {
+
 using strutt::test::check_close;
 using strutt::test::check_within;
 
@@ -208,3 +209,5 @@ TEST_CASE("A phase of 1e6 turns is as exact as one of one turn",
     }
   }
 }
+
+}  // namespace strutt::test::verdict_test

@@ -6,7 +6,8 @@
 #include "support/models.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::winding_test {
+
 using strutt::test::check_close;
 using strutt::test::check_within;
 
@@ -83,3 +84,5 @@ TEST_CASE("64 periods taken for one: growth and turns are 64 times those of one"
   }
   check_within("N21 growth and winding of 64 periods over 64: difference from those of one", largest, 1e-14);
 }
+
+}  // namespace strutt::test::winding_test

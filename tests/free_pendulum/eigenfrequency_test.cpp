@@ -5,7 +5,8 @@
 #include "reference/free_pendulum.hpp"
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::eigenfrequency_test {
+
 using exact::Real;
 
 TEST_CASE("alpha of a scene is known to 30 digits", "[free_pendulum][eigenfrequency][accuracy]") {
@@ -27,3 +28,5 @@ TEST_CASE("an eigenfrequency is positive and its rest is small", "[free_pendulum
   CHECK_THROWS_AS((Eigenfrequency{0.0, 0.0}.validate()), InvalidInput);
   CHECK_THROWS_AS((Eigenfrequency{1.0, 1e-10}.validate()), InvalidInput);
 }
+
+}  // namespace strutt::test::eigenfrequency_test

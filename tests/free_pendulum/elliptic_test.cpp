@@ -8,7 +8,8 @@
 #include "strutt/base/error.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::elliptic_test {
+
 using exact::error_in_ulp;
 using exact::Real;
 using strutt::test::check_within;
@@ -113,3 +114,5 @@ TEST_CASE("elliptic functions refuse misuse", "[free_pendulum][elliptic][error]"
   CHECK_THROWS_AS(jacobi_functions(1e17, ComplementaryModulus(0.5)), InvalidInput);
   CHECK_THROWS_AS(arithmetic_geometric_mean(-1.0, 1.0), InvalidInput);
 }
+
+}  // namespace strutt::test::elliptic_test

@@ -8,7 +8,8 @@
 #include "reference/free_pendulum.hpp"
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::energy_test {
+
 using exact::Real;
 
 namespace {
@@ -138,3 +139,5 @@ TEST_CASE("the first integral refuses misuse", "[free_pendulum][energy][error]")
   CHECK_THROWS_AS(energy_integral(-4.1), InvalidInput);
   CHECK_THROWS_AS(energy_integral(kNaN), InvalidInput);
 }
+
+}  // namespace strutt::test::energy_test

@@ -11,7 +11,8 @@
 #include "strutt/base/error.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::free_motion_test {
+
 using exact::Real;
 using exact::State;
 using strutt::test::check_within;
@@ -212,3 +213,5 @@ TEST_CASE("the closed form and the integrator give one motion", "[free_pendulum]
     CHECK(closed.points[i].error < 1e-13);
   }
 }
+
+}  // namespace strutt::test::free_motion_test

@@ -11,7 +11,8 @@
 #include "strutt/base/error.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::frequency_series_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -158,3 +159,5 @@ TEST_CASE("series want a minimum", "[free_pendulum][misuse]") {
   CHECK_THROWS_AS(evaluate({}, 0.0, 1.0), InvalidInput);
   CHECK_THROWS_AS(evaluate({}, 1.0, -1.0), InvalidInput);
 }
+
+}  // namespace strutt::test::frequency_series_test

@@ -5,7 +5,7 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::jet_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("coefficients beyond third order are refused", "[free_pendulum][misuse
   CHECK_THROWS_AS(x.coefficient(2, 2), InvalidInput);
   CHECK_THROWS_AS(x.coefficient(-1, 2), InvalidInput);
 }
+
+}  // namespace strutt::test::jet_test

@@ -10,7 +10,7 @@
 #include "strutt/free_pendulum/normal_form.hpp"
 #include "strutt/free_pendulum/period_formulas.hpp"
 
-using namespace strutt;
+namespace strutt::test::krylov_test {
 
 namespace {
 
@@ -149,3 +149,5 @@ TEST_CASE("formulas are refused beyond their range", "[free_pendulum][misuse]") 
   CHECK_THROWS_AS(linear_amplitude(-1.0, 0.0, 0.0), InvalidInput);
   CHECK_THROWS_AS(linear_amplitude(1.0, HUGE_VAL, 0.0), InvalidInput);
 }
+
+}  // namespace strutt::test::krylov_test

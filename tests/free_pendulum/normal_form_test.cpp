@@ -8,7 +8,7 @@
 #include "strutt/base/error.hpp"
 #include "support/reference.hpp"
 
-using namespace strutt;
+namespace strutt::test::normal_form_test {
 
 namespace {
 
@@ -172,3 +172,5 @@ TEST_CASE("a normal form wants a positive alpha and finite coefficients", "[free
   CHECK_THROWS_AS(normal_form(PlanarCoefficients{.alpha = 1.0, .f2 = {.c03 = NAN}}), InvalidInput);
   CHECK_THROWS_AS(normal_form_period(NormalForm{.alpha = 1.0}, -1.0), InvalidInput);
 }
+
+}  // namespace strutt::test::normal_form_test

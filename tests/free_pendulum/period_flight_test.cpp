@@ -7,7 +7,7 @@
 #include "strutt/free_pendulum/period.hpp"
 #include "strutt/integrate/integrator.hpp"
 
-using namespace strutt;
+namespace strutt::test::period_flight_test {
 
 namespace {
 
@@ -80,3 +80,5 @@ TEST_CASE("integration to the quarter-period event agrees with the elliptic peri
     CHECK(result.cost.right_hand_sides > 10);
   }
 }
+
+}  // namespace strutt::test::period_flight_test

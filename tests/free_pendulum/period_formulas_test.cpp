@@ -10,7 +10,7 @@
 #include "strutt/free_pendulum/frequency_series.hpp"
 #include "strutt/free_pendulum/normal_form.hpp"
 
-using namespace strutt;
+namespace strutt::test::period_formulas_test {
 
 namespace {
 
@@ -202,3 +202,5 @@ TEST_CASE("quite good agreement for 0 <= mu < 2.7, as a number", "[free_pendulum
   CHECK(worst == Approx(0.01463832802374899886).epsilon(1e-12));  // at 2.7 itself
   CHECK(largest_amplitude(kKrylov, worst) == Approx(2.7).epsilon(1e-12));
 }
+
+}  // namespace strutt::test::period_formulas_test

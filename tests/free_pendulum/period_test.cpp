@@ -12,7 +12,8 @@
 #include "strutt/base/error.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::period_test {
+
 using strutt::test::check_within;
 using Real = exact::Real50;
 
@@ -256,3 +257,5 @@ TEST_CASE("the inverse at its ends", "[free_pendulum][period][inverse]") {
   CHECK(libration_of_period_ratio(1.0).from_top == kPiRounded);
   for (const double bad : {0.999, 441.0, kNaN}) CHECK_THROWS_AS(libration_of_period_ratio(bad), InvalidInput);
 }
+
+}  // namespace strutt::test::period_test

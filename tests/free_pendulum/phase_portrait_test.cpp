@@ -10,7 +10,7 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::phase_portrait_test {
 
 namespace {
 
@@ -225,3 +225,5 @@ TEST_CASE("every kind of curve has its own name", "[free_pendulum][portrait]") {
   CHECK(to_string(CurveKind::equilibrium) == "equilibrium");
   CHECK(to_string(CurveKind::section) == "section");
 }
+
+}  // namespace strutt::test::phase_portrait_test

@@ -8,7 +8,7 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::planar_system_test {
 
 namespace {
 
@@ -97,3 +97,5 @@ TEST_CASE("what is not a centre is refused", "[free_pendulum][misuse]") {
   const auto root = [](const Jet& x1, const Jet& x2) { return JetPair{x2, -sqrt(x1)}; };
   CHECK_THROWS_AS(taylor_expansion(root, {0.0, 0.0}), InvalidInput);
 }
+
+}  // namespace strutt::test::planar_system_test

@@ -8,7 +8,7 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::stroboscopic_portrait_test {
 
 namespace {
 
@@ -197,3 +197,5 @@ TEST_CASE("the progress of a portrait counts every curve once, up to all of them
   stroboscopic_portrait(kRod, &kSupport, nullptr, starts, options);
   CHECK(told == std::vector<std::size_t>{1, 2, 3, 4, 5, 6, 7, 8, 9});
 }
+
+}  // namespace strutt::test::stroboscopic_portrait_test

@@ -7,8 +7,8 @@
 #include "strutt/integrate/integrator.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::events_test {
+
 using Eigen::VectorXd;
 
 namespace {
@@ -163,3 +163,5 @@ TEST_CASE("bad event requests are refused", "[integrate][events]") {
   const EventRequest none{position, {}};
   CHECK_THROWS_AS(integrate(oscillator, 0.0, 1.0, y, {}, &none), InvalidInput);
 }
+
+}  // namespace strutt::test::events_test

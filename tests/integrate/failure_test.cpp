@@ -13,8 +13,8 @@
 #include "strutt/base/error.hpp"
 #include "strutt/integrate/integrator.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::failure_test {
+
 using Eigen::VectorXd;
 
 namespace {
@@ -256,3 +256,5 @@ TEST_CASE("options are checked", "[integrate][input]") {
   VectorXd y = VectorXd::Zero(3);
   CHECK_THROWS_AS(integrator.advance(oscillator, 0.0, 1.0, y), InvalidInput);
 }
+
+}  // namespace strutt::test::failure_test

@@ -8,7 +8,7 @@
 
 #include "strutt/base/error.hpp"
 
-namespace strutt::test {
+namespace strutt::test::hill_family_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -102,4 +102,4 @@ TEST_CASE("misuse of a family is refused", "[integrate][family][error]") {
   CHECK_THROWS_AS(family.propagate({one, {one}}, [](const HillGroup&) {}), InvalidInput);
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::hill_family_test

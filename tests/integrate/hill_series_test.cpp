@@ -14,7 +14,8 @@
 #include "strutt/base/error.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::hill_series_test {
+
 using strutt::test::check_close;
 using strutt::test::check_within;
 
@@ -280,3 +281,5 @@ TEST_CASE("series that do not fit are refused", "[integrate][series][error]") {
   CHECK_THROWS_AS(series.propagate({two, {two}}, one, result), InvalidInput);
   CHECK_THROWS_AS(series.tail(1.0, {}), InvalidInput);
 }
+
+}  // namespace strutt::test::hill_series_test

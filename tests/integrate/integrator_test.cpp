@@ -12,8 +12,8 @@
 #include "strutt/base/error.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::integrator_test {
+
 using Eigen::VectorXd;
 
 namespace {
@@ -291,3 +291,5 @@ TEST_CASE("one integrator per thread gives the bits of a serial run", "[integrat
       for (std::size_t j = 0; j < serial[i].size(); ++j) CHECK(same_bits(serial[i][j], parallel[i][j]));
   }
 }
+
+}  // namespace strutt::test::integrator_test

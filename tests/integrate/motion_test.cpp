@@ -13,7 +13,8 @@
 #include "support/paths.hpp"
 #include "support/ratchet.hpp"
 
-using namespace strutt;
+namespace strutt::test::motion_test {
+
 using strutt::test::check_within;
 
 namespace {
@@ -56,7 +57,7 @@ double motion_error(const MotionPoint& point, long double angle) {
 }  // namespace
 
 TEST_CASE("the bound of a motion is never below the true error", "[integrate][motion][ratchet]") {
-  const auto method = GENERATE(Method::automatic, Method::cvode);
+  const auto method = GENERATE(strutt::Method::automatic, strutt::Method::cvode);
   const auto tolerance = GENERATE(1e-2, 1e-5, 1e-9, 1e-12);
   double worst = 0.0;
   int converged = 0;
@@ -75,7 +76,7 @@ TEST_CASE("the bound of a motion is never below the true error", "[integrate][mo
     const bool sensitive = (row.frequency == 7.0 && row.t == 20.0) ||
                            (row.frequency == 6.0 &&
                             ((row.t == 20.0 && tolerance < 1e-4) || (row.t == 10.0 && tolerance < 1e-8)));
-    if (tolerance >= 1e-9 && method == Method::automatic && !sensitive)
+    if (tolerance >= 1e-9 && method == strutt::Method::automatic && !sensitive)
       CHECK(point.outcome == Outcome::converged);
     converged += point.outcome == Outcome::converged;
     if (point.error > 0.0) worst = std::max(worst, error / point.error);
@@ -85,12 +86,12 @@ TEST_CASE("the bound of a motion is never below the true error", "[integrate][mo
   }
   INFO("tolerance " << tolerance << ": converged " << converged << ", largest error/bound " << worst);
   CHECK(worst > 1e-4);
-  if (method == Method::automatic) CHECK(converged >= (tolerance >= 1e-9 ? 37 : 15));
+  if (method == strutt::Method::automatic) CHECK(converged >= (tolerance >= 1e-9 ? 37 : 15));
 }
 
 TEST_CASE("an excited motion keeps ten digits over fifty periods",
           "[integrate][motion][reference][ratchet]") {
-  const auto method = GENERATE(Method::arkode, Method::cvode);
+  const auto method = GENERATE(strutt::Method::arkode, strutt::Method::cvode);
   const auto rows = read_motions("long_motion.csv");
   REQUIRE(rows.size() == 5);
   for (const auto& row : rows) {
@@ -294,8 +295,10 @@ TEST_CASE("misuse of a motion throws", "[integrate][motion]") {
   CHECK_THROWS_AS(run({0.0, INFINITY}, 1.0, {}), InvalidInput);
   CHECK_THROWS_AS(run({0.0, 0.0}, -1.0, {}), InvalidInput);
   CHECK_THROWS_AS(run({0.0, 0.0}, 1.0, {.tolerance = 1e-14}), InvalidInput);
-  CHECK_THROWS_AS(run({0.0, 0.0}, 1.0, {.method = Method::exact}), InvalidInput);
+  CHECK_THROWS_AS(run({0.0, 0.0}, 1.0, {.method = strutt::Method::exact}), InvalidInput);
   const auto support = sinusoidal_support(0.1, 3.0);
   const auto moment = sinusoidal_support(0.1, 4.0);
   CHECK_THROWS_AS(integrate_motion(kRod, &support, &moment, {}, std::array{1.0}, {}), InvalidInput);
 }
+
+}  // namespace strutt::test::motion_test

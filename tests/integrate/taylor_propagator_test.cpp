@@ -11,8 +11,8 @@
 #include "support/ratchet.hpp"
 #include "support/system_series.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::taylor_propagator_test {
+
 using Eigen::MatrixXd;
 using reference::LongMatrix;
 
@@ -217,3 +217,5 @@ TEST_CASE("misuse of the Taylor propagator is refused", "[integrate][taylor][err
   CHECK_THROWS_AS(propagator.propagate(-1, 2), InvalidInput);
   CHECK_THROWS_AS(propagator.propagate(0, 5), InvalidInput);
 }
+
+}  // namespace strutt::test::taylor_propagator_test

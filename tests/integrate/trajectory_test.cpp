@@ -8,8 +8,8 @@
 #include "strutt/base/error.hpp"
 #include "strutt/integrate/integrator.hpp"
 
-using namespace strutt;
-using namespace strutt::test;
+namespace strutt::test::trajectory_test {
+
 using Eigen::VectorXd;
 
 namespace {
@@ -126,3 +126,5 @@ TEST_CASE("odd trajectories", "[integrate][trajectory]") {
   CHECK_THROWS_AS(run({-1.0, 0.5}), InvalidInput);
   CHECK_THROWS_AS(run({1.0}, {0.5, 0.25}), InvalidInput);
 }
+
+}  // namespace strutt::test::trajectory_test

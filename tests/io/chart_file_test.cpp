@@ -15,7 +15,8 @@
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::chart_file_test {
+
 namespace {
 
 using test::cell;
@@ -216,4 +217,4 @@ TEST_CASE("the disk is full when HDF5 writes its last bytes", "[io][chart_file][
   write_chart(directory / "c.h5", d, 5);  // and the library is as good as before
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::chart_file_test

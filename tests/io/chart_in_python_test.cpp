@@ -7,7 +7,8 @@
 #include "io/scratch.hpp"
 #include "io/zip_layout.hpp"
 
-namespace strutt {
+namespace strutt::test::chart_in_python_test {
+
 namespace {
 
 using test::content_of;
@@ -131,4 +132,4 @@ TEST_CASE("xarray reads .h5 as a labelled data set, square charts too", "[io][ch
          "assert d['growth'].sel(x=1.0, y=-1.0, method='nearest').shape == ()\n");
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::chart_in_python_test

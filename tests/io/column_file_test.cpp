@@ -10,7 +10,8 @@
 #include "strutt/base/error.hpp"
 #include "strutt/io/table.hpp"
 
-namespace strutt {
+namespace strutt::test::column_file_test {
+
 namespace {
 
 using test::content_of;
@@ -111,4 +112,4 @@ TEST_CASE("a full device is an error of every format", "[io][column_file]") {
   CHECK_THROWS_AS(write("/dev/full", table_of_three()), InputOutputError);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::column_file_test

@@ -14,7 +14,8 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/verdict.hpp"
 
-namespace strutt {
+namespace strutt::test::figure_test {
+
 namespace {
 
 using test::content_of;
@@ -181,4 +182,4 @@ TEST_CASE("without gnuplot the message says so and the old picture stays", "[io]
   CHECK(scratch.names().size() == 1);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::figure_test

@@ -13,7 +13,8 @@
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::output_file_test {
+
 namespace {
 
 using test::content_of;
@@ -230,4 +231,4 @@ TEST_CASE("names as long as the file system allows work", "[io][output_file]") {
   CHECK(content_of(directory / name) == "x");
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::output_file_test

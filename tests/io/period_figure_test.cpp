@@ -10,7 +10,8 @@
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::period_figure_test {
+
 namespace {
 
 using test::content_of;
@@ -100,4 +101,4 @@ TEST_CASE("what is wrong with a figure of periods is said", "[io][period_figure]
   CHECK(scratch.names().empty());
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::period_figure_test

@@ -9,7 +9,8 @@
 #include "io/scratch.hpp"
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::portrait_figure_test {
+
 namespace {
 
 using std::numbers::pi;
@@ -109,4 +110,4 @@ TEST_CASE("what is wrong with a portrait's figure is said before anything is dra
   CHECK(scratch.names().empty());
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::portrait_figure_test

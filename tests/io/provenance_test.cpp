@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace strutt {
+namespace strutt::test::provenance_test {
+
 namespace {
 
 std::string value_of(const Provenance& provenance, const std::string& name) {
@@ -72,4 +73,4 @@ TEST_CASE("provenance as JSON keeps its order and survives odd bytes", "[io][pro
   CHECK(json["a"] == "\xEF\xBF\xBD");
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::provenance_test

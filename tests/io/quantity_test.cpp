@@ -5,7 +5,7 @@
 #include "strutt/base/error.hpp"
 #include "strutt/io/scene_file.hpp"
 
-namespace strutt {
+namespace strutt::test::quantity_test {
 
 TEST_CASE("quantities with units", "[io][scene_file][quantity]") {
   CHECK(parse_quantity("25 cm", "m") == 0.25);
@@ -37,4 +37,4 @@ TEST_CASE("quantities that make no sense", "[io][scene_file][quantity]") {
   CHECK_THROWS_AS(parse_quantity("1 m", ""), InvalidInput);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::quantity_test

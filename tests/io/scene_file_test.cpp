@@ -8,7 +8,8 @@
 #include "io/scene_text.hpp"
 #include "io/scratch.hpp"
 
-namespace strutt {
+namespace strutt::test::scene_file_test {
+
 namespace {
 
 using test::complaint;
@@ -214,4 +215,4 @@ TEST_CASE("a scene file that cannot be read is an input/output error", "[io][sce
   CHECK(contains(message_of<FileError>([&] { read_scene(large); }), "large.toml: the file is larger than 1 MiB"));
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::scene_file_test

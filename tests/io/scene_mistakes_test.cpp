@@ -3,7 +3,8 @@
 
 #include "io/scene_text.hpp"
 
-namespace strutt {
+namespace strutt::test::scene_mistakes_test {
+
 namespace {
 
 using test::complaint;
@@ -148,4 +149,4 @@ TEST_CASE("positions after long numbers and wide characters are right", "[io][sc
                  "s.toml:3:63: hill.harmonics.1.sin = nan"));
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::scene_mistakes_test

@@ -8,7 +8,8 @@
 #include "strutt/io/scene_file.hpp"
 #include "strutt/io/table.hpp"
 
-namespace strutt {
+namespace strutt::test::surrogate_file_test {
+
 namespace {
 
 Surrogate mathieu_surrogate() {
@@ -69,4 +70,4 @@ TEST_CASE("a file that is no surrogate is refused", "[io][surrogate]") {
   refused(other);
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::surrogate_file_test

@@ -7,7 +7,8 @@
 
 #include "io/scratch.hpp"
 
-namespace strutt {
+namespace strutt::test::table_test {
+
 namespace {
 
 using test::message_of;
@@ -184,4 +185,4 @@ TEST_CASE("the decimal point does not depend on the locale", "[io][table][number
   if (!any) WARN("no locale with a decimal comma is installed");
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::table_test

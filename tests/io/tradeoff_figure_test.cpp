@@ -7,7 +7,8 @@
 #include "io/tradeoff_script.hpp"
 #include "strutt/base/error.hpp"
 
-namespace strutt {
+namespace strutt::test::tradeoff_figure_test {
+
 namespace {
 
 using test::content_of;
@@ -99,4 +100,4 @@ TEST_CASE("what is wrong with a figure of speed and accuracy is said", "[io][tra
   CHECK(scratch.names().empty());
 }
 
-}  // namespace strutt
+}  // namespace strutt::test::tradeoff_figure_test

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace strutt;
+namespace strutt::test::excitation_test {
+
 using Real = boost::multiprecision::cpp_bin_float_50;
 
 TEST_CASE("A sinusoidal support is amplitude sin(frequency t + phase)", "[model][excitation]") {
@@ -48,3 +49,5 @@ TEST_CASE("A support with square acceleration has r'' = -amplitude frequency^2 s
     CHECK(second == Approx(-kAmplitude * kFrequency * kFrequency).epsilon(1e-8));
   }
 }
+
+}  // namespace strutt::test::excitation_test

@@ -8,7 +8,8 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::hill_equation_test {
+
 using Real = boost::multiprecision::cpp_bin_float_50;
 
 namespace {
@@ -113,3 +114,5 @@ TEST_CASE("Hill's equation refuses what it cannot be", "[model][hill_equation][e
   CHECK_THROWS_AS(hill_equation(1e160, PeriodicFunction::constant(1.0)).validate(), InvalidInput);
   CHECK_NOTHROW(mathieu_delta_epsilon(-1e300, 1e300, 1e300).validate());
 }
+
+}  // namespace strutt::test::hill_equation_test

@@ -5,7 +5,8 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::linear_system_test {
+
 using Eigen::MatrixXd;
 
 namespace {
@@ -129,3 +130,5 @@ TEST_CASE("A linear system says what is wrong with it", "[model][linear_system][
   CHECK(refused([](System& s) { s.stiffness.harmonics[0].order = 3; }) ==
         "order in linear.stiffness.harmonics = 3 is not allowed: it must be given only once");
 }
+
+}  // namespace strutt::test::linear_system_test

@@ -7,7 +7,8 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::linearisation_test {
+
 using Real = boost::multiprecision::cpp_bin_float_50;
 
 namespace {
@@ -165,3 +166,5 @@ TEST_CASE("Linearisation refuses bodies, supports and moments that do not fit",
   CHECK_NOTHROW(linearise(rod(), Equilibrium::hanging, &support, &constant));
   CHECK_NOTHROW(linearise(rod(), Equilibrium::hanging, nullptr, &other));
 }
+
+}  // namespace strutt::test::linearisation_test

@@ -6,7 +6,7 @@
 
 #include "strutt/model/periodic_function.hpp"
 
-using namespace strutt;
+namespace strutt::test::parity_test {
 
 namespace {
 
@@ -76,3 +76,5 @@ TEST_CASE("asymmetry measures what an even centre leaves out", "[model][periodic
   CHECK(PeriodicFunction::fourier(0.0, {{1, 0.0, 4.0}}).asymmetry(kPi / 2.0) < 1e-16);
   CHECK(PeriodicFunction::square(0.0, 1.0, 0.7).asymmetry(0.7) == 0.0);
 }
+
+}  // namespace strutt::test::parity_test

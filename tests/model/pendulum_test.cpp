@@ -9,7 +9,8 @@
 #include "strutt/integrate/integrator.hpp"
 #include "strutt/model/excitation.hpp"
 
-using namespace strutt;
+namespace strutt::test::pendulum_test {
+
 using Real = boost::multiprecision::cpp_bin_float_50;
 
 namespace {
@@ -269,3 +270,5 @@ TEST_CASE("Bodies that cannot be are refused by name, value and range", "[model]
                     "inertia = 0.49 is not allowed: it must be at least mass * centroid^2 = 0.5 (Steiner)");
   CHECK_NOTHROW((PhysicalPendulum{2.0, 0.5, 0.5}.validate()));
 }
+
+}  // namespace strutt::test::pendulum_test

@@ -9,7 +9,8 @@
 
 #include "strutt/base/error.hpp"
 
-using namespace strutt;
+namespace strutt::test::periodic_function_test {
+
 using Real = boost::multiprecision::cpp_bin_float_50;
 
 namespace {
@@ -279,3 +280,5 @@ TEST_CASE("Misuse of periodic functions names what is wrong", "[model][periodic_
   CHECK_THROWS_WITH(PeriodicFunction::samples({}),
                     "number of samples = 0 is not allowed: it must be at least 1");
 }
+
+}  // namespace strutt::test::periodic_function_test

@@ -9,7 +9,8 @@
 #include "support/ratchet.hpp"
 #include "support/scenes.hpp"
 
-using namespace strutt;
+namespace strutt::test::scale_test {
+
 using strutt::test::check_close;
 using test::mathieu_scene;
 using test::rod_scene;
@@ -85,3 +86,5 @@ TEST_CASE("Scenes that only differ in units of mass, length and time agree", "[m
   check_close("growth in other units of mass length and time (relative)", a.growth_per_time,
               1e3 * b.growth_per_time, 8e-16);
 }
+
+}  // namespace strutt::test::scale_test

@@ -8,7 +8,8 @@
 #include "strutt/base/error.hpp"
 #include "support/scenes.hpp"
 
-using namespace strutt;
+namespace strutt::test::scene_test {
+
 using test::mathieu_scene;
 using test::rod_scene;
 
@@ -262,3 +263,5 @@ TEST_CASE("describe names the model in words", "[model][scene]") {
                      "Meissner's equation", "linear periodic system, 4 states"});
   CHECK(describe(rod_scene(Equilibrium::inverted)) == "pendulum, inverted, sinusoidal support");
 }
+
+}  // namespace strutt::test::scene_test
