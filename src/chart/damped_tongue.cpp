@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/constants.hpp"
+#include "chart/margin_pieces.hpp"
 
 namespace strutt {
 namespace {
@@ -13,7 +14,7 @@ constexpr double kNarrowUndamped = 2e-6;     // undamped width in the mean
 constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
 constexpr double kCurvature =
     8.0;  // bounds the relative error of the narrow form by its product with width^2
-constexpr int kSteps = 32, kStepsOfMean = 8;
+constexpr int kStepsOfMean = 8;
 constexpr int kGrowthSteps = 16;
 
 }  // namespace
@@ -84,12 +85,7 @@ void DampedTongue::add_wide(const Stretch& stretch) {
   const double from = stretch.begin ? stretch.begin->position : line_.from;
   const double to = stretch.end ? stretch.end->position : line_.to;
   if (!(from < to)) return;
-  // at the edges of the undamped tongue |D| = 2
-  const auto changes = stability_changes(verdicts_, from, to,
-                                         {.steps = only_mean_changes(from, to) ? kStepsOfMean : kSteps,
-                                          .stable_from = stretch.begin.has_value(),
-                                          .stable_to = stretch.end.has_value(),
-                                          .cancel = options_.cancel});
+  const auto changes = changes_in(stretch, from, to);
   std::optional<Narrow> estimate;
   if (stretch.begin && stretch.end && undamped_.function().order() > 0) {
     const auto& edges = undamped_.function().at(to).edges;
@@ -107,6 +103,30 @@ void DampedTongue::add_wide(const Stretch& stretch) {
     if (options_.growth) add_growth(low, high);
   }
   if (!changes.empty() && changes.back().begins) ++crossing_;
+}
+
+std::vector<StabilityChange> DampedTongue::changes_in(const Stretch& stretch, double from, double to) {
+  // at the edges of the undamped tongue |D| = 2
+  const ChangeSearch search{.steps = kStepsOfMean,
+                            .stable_from = stretch.begin.has_value(),
+                            .stable_to = stretch.end.has_value(),
+                            .cancel = options_.cancel};
+  if (stretch.begin && stretch.end && only_mean_changes(from, to))
+    return stability_changes(verdicts_, from, to, search);
+  const auto excess = [this](double p) { return log_excess(p); };
+  return stability_changes(verdicts_, sign_pieces(excess, from, to, options_.cancel), search);
+}
+
+/// ln |D| - ln(2 cosh h), analytic in the tongue, as |D| >= 2 there.
+Margin DampedTongue::log_excess(double position) {
+  const auto& point = verdicts_.at(position);
+  const double h = equation_.half_damping(position), total = point.growth + h;
+  const Margin& margin = point.margin;
+  if (std::abs(margin.value) < 0.5)
+    return {std::log1p(-margin.value), margin.error / (1.0 - margin.value)};
+  const auto log_two_cosh = [](double x) { return std::abs(x) + std::log1p(std::exp(-2.0 * std::abs(x))); };
+  // far from zero, where the margin may be too close to 1 or beyond double
+  return {log_two_cosh(total) - log_two_cosh(h), 1e-12 + 8.0 * kUnit * (std::abs(total) + h)};
 }
 
 /// |D| then has one maximum.

@@ -25,7 +25,9 @@ class DampedTongue {
   };
   std::optional<Narrow> narrow(const Stretch& stretch);
 
+  std::vector<StabilityChange> changes_in(const Stretch& stretch, double from, double to);
   bool only_mean_changes(double from, double to);
+  Margin log_excess(double position);
   bool add_narrow(const Stretch& stretch);
   void add_wide(const Stretch& stretch);
   TongueEdge edge(double position, double error, bool upper) const;

@@ -63,6 +63,10 @@ struct ChangeSearch {
 std::vector<StabilityChange> stability_changes(StabilityLine& line, double from, double to,
                                                const ChangeSearch& search);
 
+/// The changes between neighbours of these points, at least two, in order. `steps` has no meaning here.
+std::vector<StabilityChange> stability_changes(StabilityLine& line, const std::vector<double>& places,
+                                               const ChangeSearch& search);
+
 /// The largest growth in [from, to], and where: the best of so many points, and Brent's method about it.
 struct GrowthPeak {
   double position, growth;
