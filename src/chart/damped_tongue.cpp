@@ -10,7 +10,8 @@
 namespace strutt {
 namespace {
 
-constexpr double kNarrowUndamped = 2e-6;     // undamped width in the mean
+constexpr double kNarrowUndamped = 2e-6;  // undamped width in the mean
+constexpr double kUneven = 1e-2;     // change of h/h0 across the tongue, above which it has no narrow form
 constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
 constexpr double kCurvature =
     8.0;  // bounds the relative error of the narrow form by its product with width^2
@@ -37,28 +38,42 @@ TongueEdge DampedTongue::edge(double position, double error, bool upper) const {
   return result;
 }
 
+double DampedTongue::undamped_growth(const EdgeZero& zero) {
+  const auto& value = undamped_.function().at(zero.position);
+  return narrow_tongue_growth(value.point.variation, value.edges,
+                              tongue_width(value.point.variation, value.edges, value.point.relative_error));
+}
+
 /// The resonant block at the exponent n/2 + i eta, eta = h/(2 pi), is [a + i b, beta; conj(beta), a - i b]
 /// with b = eta |dh/dnu|, up to terms of eta^2: a^2 = |beta|^2 - b^2.
-std::optional<DampedTongue::Narrow> DampedTongue::narrow(const Stretch& stretch) {
+DampedTongue::Narrow DampedTongue::narrow(const Stretch& stretch) {
   const auto& value = undamped_.function().at(stretch.end->position);
   const TongueWidth in_mean = tongue_width(value.point.variation, value.edges, value.point.relative_error);
   const TongueEdge low = undamped_.edge(*stretch.begin, false, 0),
                    high = undamped_.edge(*stretch.end, true, 0);
   const TongueWidth whole = undamped_.width_of(*stretch.begin, *stretch.end, low, high);
-  const double growth = narrow_tongue_growth(value.point.variation, value.edges, in_mean);
+  const double growth_low = undamped_growth(*stretch.begin), growth_high = undamped_growth(*stretch.end);
+  const double growth = std::midpoint(growth_low, growth_high);
   const double middle = std::midpoint(low.position, high.position);
-  const double ratio = equation_.half_damping(middle) / growth;
-  if (!(ratio < 1.0)) return std::nullopt;
+  const double damping = equation_.half_damping(middle), ratio = damping / growth;
+  const double uneven = std::abs(equation_.half_damping(low.position) / growth_low -
+                                 equation_.half_damping(high.position) / growth_high) /
+                        ratio;
+  Narrow result{.middle = middle,
+                .position_error = 0.0,
+                .width = {0.0, 1.0},
+                .growth = growth - damping,
+                .uneven = uneven};
+  if (!(ratio < 1.0)) return result;
   const double open = (1.0 - ratio) * (1.0 + ratio);
-  const double size = std::max(1.0, std::abs(middle));
   const double along = whole.value / std::max(std::abs(middle), line_.to - line_.from);
-  const double model = kCurvature * (in_mean.value * in_mean.value + along * along) + 16.0 * kUnit;
+  const double model =
+      kCurvature * (in_mean.value * in_mean.value + along * along + uneven * uneven) + 16.0 * kUnit;
   const double relative = whole.relative_error + (model + in_mean.relative_error) / open;
-  const double shift = std::max(low.error, high.error) * size + whole.value * (in_mean.value + along);
-  return Narrow{middle,
-                shift,
-                {whole.value * std::sqrt(open), std::min(1.0, relative)},
-                growth - equation_.half_damping(middle)};
+  result.width = {whole.value * std::sqrt(open), std::min(1.0, relative)};
+  result.position_error = std::max(low.error, high.error) * std::max(1.0, std::abs(middle)) +
+                          whole.value * (in_mean.value + along + uneven);
+  return result;
 }
 
 bool DampedTongue::add_narrow(const Stretch& stretch) {
@@ -68,13 +83,14 @@ bool DampedTongue::add_narrow(const Stretch& stretch) {
   if (equation_.half_damping(stretch.begin->position) == 0.0 &&
       equation_.half_damping(stretch.end->position) == 0.0)
     return false;
-  const auto left = narrow(stretch);
-  if (!left || left->width.relative_error >= 1.0) return true;  // closed, or it cannot be said
-  const double half = 0.5 * left->width.value;
-  TongueEdge low = edge(left->middle - half, left->position_error + kUnit * std::abs(left->middle), false);
-  TongueEdge high = edge(left->middle + half, left->position_error + kUnit * std::abs(left->middle), true);
-  low.growth = high.growth = options_.growth ? left->growth : low.growth;
-  low.growth_position = high.growth_position = options_.growth ? left->middle : low.growth_position;
+  const Narrow left = narrow(stretch);
+  if (!(left.uneven < kUneven)) return false;
+  if (left.width.relative_error >= 1.0) return true;  // closed, or it cannot be said
+  const double half = 0.5 * left.width.value;
+  TongueEdge low = edge(left.middle - half, left.position_error + kUnit * std::abs(left.middle), false);
+  TongueEdge high = edge(left.middle + half, left.position_error + kUnit * std::abs(left.middle), true);
+  low.growth = high.growth = options_.growth ? left.growth : low.growth;
+  low.growth_position = high.growth_position = options_.growth ? left.middle : low.growth_position;
   add_width(low, high, left);
   edges_.insert(edges_.end(), {low, high});
   ++crossing_;
@@ -100,9 +116,13 @@ void DampedTongue::add_wide(const Stretch& stretch) {
     if (i == 0 || undamped_.function().order() == 0) continue;
     TongueEdge &low = edges_[edges_.size() - 2], &high = edges_.back();
     add_width(low, high, estimate);
+    if (options_.widths && low.outcome != Outcome::converged) sharpen_pair(low, high);
     if (options_.growth) add_growth(low, high);
   }
   if (!changes.empty() && changes.back().begins) ++crossing_;
+  if (!options_.widths) return;
+  for (std::size_t i = edges_.size() - changes.size(); i < edges_.size(); ++i)
+    if (!(edges_[i].error <= options_.tolerance)) sharpen(edges_[i]);  // those without a partner
 }
 
 std::vector<StabilityChange> DampedTongue::changes_in(const Stretch& stretch, double from, double to) {
@@ -122,8 +142,7 @@ Margin DampedTongue::log_excess(double position) {
   const auto& point = verdicts_.at(position);
   const double h = equation_.half_damping(position), total = point.growth + h;
   const Margin& margin = point.margin;
-  if (std::abs(margin.value) < 0.5)
-    return {std::log1p(-margin.value), margin.error / (1.0 - margin.value)};
+  if (std::abs(margin.value) < 0.5) return {std::log1p(-margin.value), margin.error / (1.0 - margin.value)};
   const auto log_two_cosh = [](double x) { return std::abs(x) + std::log1p(std::exp(-2.0 * std::abs(x))); };
   // far from zero, where the margin may be too close to 1 or beyond double
   return {log_two_cosh(total) - log_two_cosh(h), 1e-12 + 8.0 * kUnit * (std::abs(total) + h)};
@@ -146,6 +165,27 @@ void DampedTongue::add_width(TongueEdge& low, TongueEdge& high, const std::optio
   low.width = high.width = width.value;
   low.width_relative_error = high.width_relative_error = width.relative_error;
   if (width.relative_error > kWidthPromise) low.outcome = high.outcome = Outcome::tolerance_not_reached;
+}
+
+/// What the position leaves over of the edge, if that could be found in 50 digits.
+std::optional<double> DampedTongue::sharpen(TongueEdge& edge) const {
+  const double size = std::max(1.0, std::abs(edge.position));
+  const auto zero = extended_.near(edge.position, edge.error * size);
+  if (!zero || zero->position < line_.from || zero->position > line_.to) return std::nullopt;
+  edge.position = zero->position;
+  edge.error = (std::abs(zero->remainder) + kUnit * kUnit * std::abs(edge.position)) / size;
+  edge.outcome = edge.error <= options_.tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
+  return zero->remainder;
+}
+
+void DampedTongue::sharpen_pair(TongueEdge& low, TongueEdge& high) const {
+  const auto beyond_low = sharpen(low), beyond_high = sharpen(high);
+  if (beyond_low && beyond_high) {
+    low.width = high.width = (high.position - low.position) + (*beyond_high - *beyond_low);
+    low.width_relative_error = high.width_relative_error = 8.0 * kUnit;
+  } else if (low.width_relative_error > kWidthPromise) {
+    low.outcome = high.outcome = Outcome::tolerance_not_reached;
+  }
 }
 
 void DampedTongue::add_growth(TongueEdge& low, TongueEdge& high) const {

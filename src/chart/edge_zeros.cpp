@@ -32,8 +32,8 @@ class ZeroSearch {
   double value(double p) { return function_.at(p).below(upper_); }
   void add(double position, bool rising) { zeros.push_back({upper_, rising, position}); }
 
-  /// From a zero towards `end`, to where F is again more than its error, with this sign unless that is 0; `end`
-  /// if it never is.
+  /// From a zero towards `end`, to where F is again more than its error, with this sign unless that is 0;
+  /// `end` if it never is.
   double clear_of(double zero, double end, double sign = 0.0) {
     const double least = std::max(resolution_, std::abs(std::nextafter(zero, end) - zero));
     for (double step = least; step < std::abs(end - zero); step *= 2.0) {

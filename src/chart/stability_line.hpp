@@ -18,7 +18,8 @@ class StabilityLine {
     Margin margin;
     double growth = 0.0;
     std::complex<double> leading;  ///< multiplier of the largest modulus
-    double gap = 0.0;  ///< least -Re (a - b)^2/(a b) of two multipliers: negative where they have left the circle
+    double gap =
+        0.0;  ///< least -Re (a - b)^2/(a b) of two multipliers: negative where they have left the circle
     Method method = Method::automatic;
 
     bool unstable() const { return margin.value < -margin.error; }  ///< for certain
@@ -31,8 +32,8 @@ class StabilityLine {
 
   const Point& at(double parameter);
 
-  /// The propagator over half a period of a system that is symmetric, even in time and undamped there; nothing
-  /// for others.
+  /// The propagator over half a period of a system that is symmetric, even in time and undamped there;
+  /// nothing for others.
   std::optional<BoundedMatrix> half_period(double parameter);
 
  private:
