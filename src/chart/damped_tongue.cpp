@@ -120,9 +120,7 @@ void DampedTongue::add_wide(const Stretch& stretch) {
     if (options_.growth) add_growth(low, high);
   }
   if (!changes.empty() && changes.back().begins) ++crossing_;
-  if (!options_.widths) return;
-  for (std::size_t i = edges_.size() - changes.size(); i < edges_.size(); ++i)
-    if (!(edges_[i].error <= options_.tolerance)) sharpen(edges_[i]);  // those without a partner
+  if (options_.widths) sharpen_rest(edges_.size() - changes.size());
 }
 
 std::vector<StabilityChange> DampedTongue::changes_in(const Stretch& stretch, double from, double to) {
@@ -171,11 +169,27 @@ void DampedTongue::add_width(TongueEdge& low, TongueEdge& high, const std::optio
 std::optional<double> DampedTongue::sharpen(TongueEdge& edge) const {
   const double size = std::max(1.0, std::abs(edge.position));
   const auto zero = extended_.near(edge.position, edge.error * size);
-  if (!zero || zero->position < line_.from || zero->position > line_.to) return std::nullopt;
+  if (!zero) return std::nullopt;
   edge.position = zero->position;
   edge.error = (std::abs(zero->remainder) + kUnit * kUnit * std::abs(edge.position)) / size;
   edge.outcome = edge.error <= options_.tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
   return zero->remainder;
+}
+
+/// Edges without a partner; any that turns out to lie beyond the end of the line is left out.
+void DampedTongue::sharpen_rest(std::size_t first) {
+  for (std::size_t i = first; i < edges_.size(); ++i)
+    if (!(edges_[i].error <= options_.tolerance)) sharpen(edges_[i]);
+  const auto outside = [this](const TongueEdge& e) {
+    return e.position < line_.from || e.position > line_.to;
+  };
+  for (std::size_t i = first; i < edges_.size(); ++i) {
+    if (!outside(edges_[i])) continue;
+    for (TongueEdge& partner : edges_)
+      if (partner.crossing == edges_[i].crossing)
+        partner.width = partner.width_relative_error = partner.growth = partner.growth_position = kNaN;
+  }
+  std::erase_if(edges_, outside);
 }
 
 void DampedTongue::sharpen_pair(TongueEdge& low, TongueEdge& high) const {

@@ -42,6 +42,7 @@ class DampedTongue {
   void add_width(TongueEdge& low, TongueEdge& high, const std::optional<Narrow>& estimate) const;
   void add_growth(TongueEdge& low, TongueEdge& high) const;
   std::optional<double> sharpen(TongueEdge& edge) const;
+  void sharpen_rest(std::size_t first);
   void sharpen_pair(TongueEdge& low, TongueEdge& high) const;
 
   LineEquation& equation_;

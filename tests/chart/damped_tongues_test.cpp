@@ -275,8 +275,9 @@ TEST_CASE("lines of any length may end on an edge or a tip", "[chart][tongues]")
         std::vector<TongueEdge> edges;
         REQUIRE_NOTHROW(edges = tongues(scene, line));
         for (const TongueEdge& edge : edges) {
-          CHECK(edge.position >= line.from - absolute_error(edge));
-          CHECK(edge.position <= line.to + absolute_error(edge));
+          CHECK(edge.position >= line.from);
+          CHECK(edge.position <= line.to);
+          if (length >= 1e-9) CHECK(edge.outcome == Outcome::converged);
         }
         // an edge well within the line is there
         if (left == 1.0 && right == 1.0 && length >= 1e-11) CHECK(!edges.empty());
