@@ -38,12 +38,6 @@ TongueEdge DampedTongue::edge(double position, double error, bool upper) const {
   return result;
 }
 
-double DampedTongue::undamped_growth(const EdgeZero& zero) {
-  const auto& value = undamped_.function().at(zero.position);
-  return narrow_tongue_growth(value.point.variation, value.edges,
-                              tongue_width(value.point.variation, value.edges, value.point.relative_error));
-}
-
 /// The resonant block at the exponent n/2 + i eta, eta = h/(2 pi), is [a + i b, beta; conj(beta), a - i b]
 /// with b = eta |dh/dnu|, up to terms of eta^2: a^2 = |beta|^2 - b^2.
 DampedTongue::Narrow DampedTongue::narrow(const Stretch& stretch) {
@@ -52,7 +46,13 @@ DampedTongue::Narrow DampedTongue::narrow(const Stretch& stretch) {
   const TongueEdge low = undamped_.edge(*stretch.begin, false, 0),
                    high = undamped_.edge(*stretch.end, true, 0);
   const TongueWidth whole = undamped_.width_of(*stretch.begin, *stretch.end, low, high);
-  const double growth_low = undamped_growth(*stretch.begin), growth_high = undamped_growth(*stretch.end);
+  const double growth_high = narrow_tongue_growth(value.point.variation, value.edges, in_mean);
+  double growth_low = growth_high;
+  if (!equation_.one_variation()) {
+    const auto& at_low = undamped_.function().at(stretch.begin->position);
+    growth_low = narrow_tongue_growth(at_low.point.variation, at_low.edges,
+                                      tongue_width(at_low.point.variation, at_low.edges));
+  }
   const double growth = std::midpoint(growth_low, growth_high);
   const double middle = std::midpoint(low.position, high.position);
   const double damping = equation_.half_damping(middle), ratio = damping / growth;
@@ -129,9 +129,14 @@ std::vector<StabilityChange> DampedTongue::changes_in(const Stretch& stretch, do
                             .stable_from = stretch.begin.has_value(),
                             .stable_to = stretch.end.has_value(),
                             .cancel = options_.cancel};
-  if (stretch.begin && stretch.end && only_mean_changes(from, to))
-    return stability_changes(verdicts_, from, to, search);
-  const auto excess = [this](double p) { return log_excess(p); };
+  const bool whole = (stretch.begin && stretch.end) || undamped_.function().order() == 0;
+  if (whole && only_mean_changes(from, to)) return stability_changes(verdicts_, from, to, search);
+  const auto excess = [&](double p) {
+    Margin result = log_excess(p);
+    const bool edge = (p == from && stretch.begin) || (p == to && stretch.end);
+    if (edge) result.value = -std::log(std::cosh(std::min(equation_.half_damping(p), 700.0)));
+    return result;
+  };
   return stability_changes(verdicts_, sign_pieces(excess, from, to, options_.cancel), search);
 }
 
@@ -146,7 +151,7 @@ Margin DampedTongue::log_excess(double position) {
   return {log_two_cosh(total) - log_two_cosh(h), 1e-12 + 8.0 * kUnit * (std::abs(total) + h)};
 }
 
-/// |D| then has one maximum.
+/// |D| then has one maximum, and none in tongue 0, where it is monotone.
 bool DampedTongue::only_mean_changes(double from, double to) {
   const LinePoint low = equation_.at(from), high = equation_.at(to);
   return change_between(low, high) == std::abs(low.mean - high.mean) &&

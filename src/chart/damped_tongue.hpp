@@ -31,7 +31,6 @@ class DampedTongue {
     double uneven;  ///< by how much h/h0 differs between both undamped edges, relatively
   };
   Narrow narrow(const Stretch& stretch);
-  double undamped_growth(const EdgeZero& zero);
 
   std::vector<StabilityChange> changes_in(const Stretch& stretch, double from, double to);
   bool only_mean_changes(double from, double to);

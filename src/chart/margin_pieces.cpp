@@ -49,7 +49,10 @@ class PieceSearch {
  public:
   PieceSearch(const std::function<Margin(double)>& function, double from, double to,
               const std::atomic<bool>* cancel)
-      : function_(function), shortest_(kShortest * (to - from)), cancel_(cancel), places_{from, to} {
+      : function_(function),
+        shortest_(kShortest * (to - from)),
+        cancel_(cancel),
+        places_{from, std::midpoint(from, to), to} {
     search(from, to);
     std::ranges::sort(places_);
     places_.erase(std::unique(places_.begin(), places_.end()), places_.end());

@@ -8,8 +8,8 @@
 
 namespace strutt {
 
-/// Points of [from, to], both ends included, between neighbours of which a smooth function changes its sign
-/// once at most.
+/// Points of [from, to], both ends and the middle included, between neighbours of which a smooth function
+/// changes its sign once at most. (The middle, for ends where it is 0 and the caller knows on which side.)
 ///
 /// An interval is halved until the interpolant through its nine Chebyshev points shows that the function has
 /// one sign, is monotone, or is convex or concave there; in the last case its extremum joins the points if it

@@ -101,6 +101,20 @@ TEST_CASE("what is left just below closing is found wherever on the line its tip
   CHECK(found >= 50);
 }
 
+TEST_CASE("next to no damping leaves next to all of a thin tongue", "[chart][tongues]") {
+  // 2.1e-6 in the mean: by the margin, which beside the undamped edges is as uncertain as it is small
+  const TongueLine line{"pendulum.length", 0.356, 15.18};
+  const auto free = of_order(tongues(rod(Equilibrium::hanging, 0.537447, 1.15408), line), 5);
+  REQUIRE(free.size() == 2);
+  for (const double damping : {1e-7, 1e-9, 1e-11, 1e-13, 1e-20}) {
+    CAPTURE(damping);
+    const auto pair = of_order(tongues(rod(Equilibrium::hanging, 0.537447, 1.15408, damping), line), 5);
+    REQUIRE(pair.size() == 2);
+    CHECK(pair[0].width < free[0].width * (1.0 + free[0].width_relative_error));
+    CHECK(pair[0].width == Approx(free[0].width).epsilon(0.03 * std::min(1.0, damping / 1e-7) + 1e-9));
+  }
+}
+
 TEST_CASE("damping that shifts the mean into a tongue opens and closes it on a line in the damping",
           "[chart][tongues]") {
   const auto free = tongues(mathieu_scene(1.0, 3.0), {"mathieu.delta", -6.0, 10.0}, {.count = 2});
