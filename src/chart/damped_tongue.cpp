@@ -5,15 +5,17 @@
 #include <numeric>
 
 #include "base/constants.hpp"
+#include "chart/margin_pieces.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kNarrowUndamped = 2e-6;     // undamped width in the mean
+constexpr double kNarrowUndamped = 2e-6;  // undamped width in the mean
+constexpr double kUneven = 1e-2;     // change of h/h0 across the tongue, above which it has no narrow form
 constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
 constexpr double kCurvature =
     8.0;  // bounds the relative error of the narrow form by its product with width^2
-constexpr int kSteps = 32, kStepsOfMean = 8;
+constexpr int kStepsOfMean = 8;
 constexpr int kGrowthSteps = 16;
 
 }  // namespace
@@ -38,26 +40,40 @@ TongueEdge DampedTongue::edge(double position, double error, bool upper) const {
 
 /// The resonant block at the exponent n/2 + i eta, eta = h/(2 pi), is [a + i b, beta; conj(beta), a - i b]
 /// with b = eta |dh/dnu|, up to terms of eta^2: a^2 = |beta|^2 - b^2.
-std::optional<DampedTongue::Narrow> DampedTongue::narrow(const Stretch& stretch) {
+DampedTongue::Narrow DampedTongue::narrow(const Stretch& stretch) {
   const auto& value = undamped_.function().at(stretch.end->position);
   const TongueWidth in_mean = tongue_width(value.point.variation, value.edges, value.point.relative_error);
   const TongueEdge low = undamped_.edge(*stretch.begin, false, 0),
                    high = undamped_.edge(*stretch.end, true, 0);
   const TongueWidth whole = undamped_.width_of(*stretch.begin, *stretch.end, low, high);
-  const double growth = narrow_tongue_growth(value.point.variation, value.edges, in_mean);
+  const double growth_high = narrow_tongue_growth(value.point.variation, value.edges, in_mean);
+  double growth_low = growth_high;
+  if (!equation_.one_variation()) {
+    const auto& at_low = undamped_.function().at(stretch.begin->position);
+    growth_low = narrow_tongue_growth(at_low.point.variation, at_low.edges,
+                                      tongue_width(at_low.point.variation, at_low.edges));
+  }
+  const double growth = std::midpoint(growth_low, growth_high);
   const double middle = std::midpoint(low.position, high.position);
-  const double ratio = equation_.half_damping(middle) / growth;
-  if (!(ratio < 1.0)) return std::nullopt;
+  const double damping = equation_.half_damping(middle), ratio = damping / growth;
+  const double uneven = std::abs(equation_.half_damping(low.position) / growth_low -
+                                 equation_.half_damping(high.position) / growth_high) /
+                        ratio;
+  Narrow result{.middle = middle,
+                .position_error = 0.0,
+                .width = {0.0, 1.0},
+                .growth = growth - damping,
+                .uneven = uneven};
+  if (!(ratio < 1.0)) return result;
   const double open = (1.0 - ratio) * (1.0 + ratio);
-  const double size = std::max(1.0, std::abs(middle));
   const double along = whole.value / std::max(std::abs(middle), line_.to - line_.from);
-  const double model = kCurvature * (in_mean.value * in_mean.value + along * along) + 16.0 * kUnit;
+  const double model =
+      kCurvature * (in_mean.value * in_mean.value + along * along + uneven * uneven) + 16.0 * kUnit;
   const double relative = whole.relative_error + (model + in_mean.relative_error) / open;
-  const double shift = std::max(low.error, high.error) * size + whole.value * (in_mean.value + along);
-  return Narrow{middle,
-                shift,
-                {whole.value * std::sqrt(open), std::min(1.0, relative)},
-                growth - equation_.half_damping(middle)};
+  result.width = {whole.value * std::sqrt(open), std::min(1.0, relative)};
+  result.position_error = std::max(low.error, high.error) * std::max(1.0, std::abs(middle)) +
+                          whole.value * (in_mean.value + along + uneven);
+  return result;
 }
 
 bool DampedTongue::add_narrow(const Stretch& stretch) {
@@ -67,13 +83,14 @@ bool DampedTongue::add_narrow(const Stretch& stretch) {
   if (equation_.half_damping(stretch.begin->position) == 0.0 &&
       equation_.half_damping(stretch.end->position) == 0.0)
     return false;
-  const auto left = narrow(stretch);
-  if (!left || left->width.relative_error >= 1.0) return true;  // closed, or it cannot be said
-  const double half = 0.5 * left->width.value;
-  TongueEdge low = edge(left->middle - half, left->position_error + kUnit * std::abs(left->middle), false);
-  TongueEdge high = edge(left->middle + half, left->position_error + kUnit * std::abs(left->middle), true);
-  low.growth = high.growth = options_.growth ? left->growth : low.growth;
-  low.growth_position = high.growth_position = options_.growth ? left->middle : low.growth_position;
+  const Narrow left = narrow(stretch);
+  if (!(left.uneven < kUneven)) return false;
+  if (left.width.relative_error >= 1.0) return true;  // closed, or it cannot be said
+  const double half = 0.5 * left.width.value;
+  TongueEdge low = edge(left.middle - half, left.position_error + kUnit * std::abs(left.middle), false);
+  TongueEdge high = edge(left.middle + half, left.position_error + kUnit * std::abs(left.middle), true);
+  low.growth = high.growth = options_.growth ? left.growth : low.growth;
+  low.growth_position = high.growth_position = options_.growth ? left.middle : low.growth_position;
   add_width(low, high, left);
   edges_.insert(edges_.end(), {low, high});
   ++crossing_;
@@ -84,12 +101,7 @@ void DampedTongue::add_wide(const Stretch& stretch) {
   const double from = stretch.begin ? stretch.begin->position : line_.from;
   const double to = stretch.end ? stretch.end->position : line_.to;
   if (!(from < to)) return;
-  // at the edges of the undamped tongue |D| = 2
-  const auto changes = stability_changes(verdicts_, from, to,
-                                         {.steps = only_mean_changes(from, to) ? kStepsOfMean : kSteps,
-                                          .stable_from = stretch.begin.has_value(),
-                                          .stable_to = stretch.end.has_value(),
-                                          .cancel = options_.cancel});
+  const auto changes = changes_in(stretch, from, to);
   std::optional<Narrow> estimate;
   if (stretch.begin && stretch.end && undamped_.function().order() > 0) {
     const auto& edges = undamped_.function().at(to).edges;
@@ -104,12 +116,42 @@ void DampedTongue::add_wide(const Stretch& stretch) {
     if (i == 0 || undamped_.function().order() == 0) continue;
     TongueEdge &low = edges_[edges_.size() - 2], &high = edges_.back();
     add_width(low, high, estimate);
+    if (options_.widths && low.outcome != Outcome::converged) sharpen_pair(low, high);
     if (options_.growth) add_growth(low, high);
   }
   if (!changes.empty() && changes.back().begins) ++crossing_;
+  if (options_.widths) sharpen_rest(edges_.size() - changes.size());
 }
 
-/// |D| then has one maximum.
+std::vector<StabilityChange> DampedTongue::changes_in(const Stretch& stretch, double from, double to) {
+  // at the edges of the undamped tongue |D| = 2
+  const ChangeSearch search{.steps = kStepsOfMean,
+                            .stable_from = stretch.begin.has_value(),
+                            .stable_to = stretch.end.has_value(),
+                            .cancel = options_.cancel};
+  const bool whole = (stretch.begin && stretch.end) || undamped_.function().order() == 0;
+  if (whole && only_mean_changes(from, to)) return stability_changes(verdicts_, from, to, search);
+  const auto excess = [&](double p) {
+    Margin result = log_excess(p);
+    const bool edge = (p == from && stretch.begin) || (p == to && stretch.end);
+    if (edge) result.value = -std::log(std::cosh(std::min(equation_.half_damping(p), 700.0)));
+    return result;
+  };
+  return stability_changes(verdicts_, sign_pieces(excess, from, to, options_.cancel), search);
+}
+
+/// ln |D| - ln(2 cosh h), analytic in the tongue, as |D| >= 2 there.
+Margin DampedTongue::log_excess(double position) {
+  const auto& point = verdicts_.at(position);
+  const double h = equation_.half_damping(position), total = point.growth + h;
+  const Margin& margin = point.margin;
+  if (std::abs(margin.value) < 0.5) return {std::log1p(-margin.value), margin.error / (1.0 - margin.value)};
+  const auto log_two_cosh = [](double x) { return std::abs(x) + std::log1p(std::exp(-2.0 * std::abs(x))); };
+  // far from zero, where the margin may be too close to 1 or beyond double
+  return {log_two_cosh(total) - log_two_cosh(h), 1e-12 + 8.0 * kUnit * (std::abs(total) + h)};
+}
+
+/// |D| then has one maximum, and none in tongue 0, where it is monotone.
 bool DampedTongue::only_mean_changes(double from, double to) {
   const LinePoint low = equation_.at(from), high = equation_.at(to);
   return change_between(low, high) == std::abs(low.mean - high.mean) &&
@@ -126,6 +168,43 @@ void DampedTongue::add_width(TongueEdge& low, TongueEdge& high, const std::optio
   low.width = high.width = width.value;
   low.width_relative_error = high.width_relative_error = width.relative_error;
   if (width.relative_error > kWidthPromise) low.outcome = high.outcome = Outcome::tolerance_not_reached;
+}
+
+/// What the position leaves over of the edge, if that could be found in 50 digits.
+std::optional<double> DampedTongue::sharpen(TongueEdge& edge) const {
+  const double size = std::max(1.0, std::abs(edge.position));
+  const auto zero = extended_.near(edge.position, edge.error * size);
+  if (!zero) return std::nullopt;
+  edge.position = zero->position;
+  edge.error = (std::abs(zero->remainder) + kUnit * kUnit * std::abs(edge.position)) / size;
+  edge.outcome = edge.error <= options_.tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
+  return zero->remainder;
+}
+
+/// Edges without a partner; any that turns out to lie beyond the end of the line is left out.
+void DampedTongue::sharpen_rest(std::size_t first) {
+  for (std::size_t i = first; i < edges_.size(); ++i)
+    if (!(edges_[i].error <= options_.tolerance)) sharpen(edges_[i]);
+  const auto outside = [this](const TongueEdge& e) {
+    return e.position < line_.from || e.position > line_.to;
+  };
+  for (std::size_t i = first; i < edges_.size(); ++i) {
+    if (!outside(edges_[i])) continue;
+    for (TongueEdge& partner : edges_)
+      if (partner.crossing == edges_[i].crossing)
+        partner.width = partner.width_relative_error = partner.growth = partner.growth_position = kNaN;
+  }
+  std::erase_if(edges_, outside);
+}
+
+void DampedTongue::sharpen_pair(TongueEdge& low, TongueEdge& high) const {
+  const auto beyond_low = sharpen(low), beyond_high = sharpen(high);
+  if (beyond_low && beyond_high) {
+    low.width = high.width = (high.position - low.position) + (*beyond_high - *beyond_low);
+    low.width_relative_error = high.width_relative_error = 8.0 * kUnit;
+  } else if (low.width_relative_error > kWidthPromise) {
+    low.outcome = high.outcome = Outcome::tolerance_not_reached;
+  }
 }
 
 void DampedTongue::add_growth(TongueEdge& low, TongueEdge& high) const {

@@ -1,5 +1,6 @@
 #include "chart/edge_zeros.hpp"
 
+#include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
@@ -17,7 +18,8 @@ class ZeroSearch {
   ZeroSearch(EdgeFunction& function, bool upper, const TongueLine& line, double resolution,
              const std::atomic<bool>* cancel)
       : function_(function), upper_(upper), resolution_(resolution * (line.to - line.from)), cancel_(cancel) {
-    const double from = beyond_zero(line.from, line.to), to = beyond_zero(line.to, line.from);
+    const double from = value(line.from) == 0.0 ? clear_of(line.from, line.to) : line.from;
+    const double to = value(line.to) == 0.0 ? clear_of(line.to, line.from) : line.to;
     if (from > line.from) add(line.from, value(from) > 0.0);
     if (!(from < to)) return;
     search(from, to);
@@ -30,14 +32,15 @@ class ZeroSearch {
   double value(double p) { return function_.at(p).below(upper_); }
   void add(double position, bool rising) { zeros.push_back({upper_, rising, position}); }
 
-  /// An end of the line on which F is 0 is a zero; the search begins where F is again more than its error.
-  double beyond_zero(double end, double other) {
-    if (value(end) != 0.0) return end;
-    for (double step = resolution_; step < std::abs(other - end); step *= 2.0) {
-      const double p = end + std::copysign(step, other - end);
-      if (std::abs(value(p)) > 2.0 * function_.at(p).error(upper_)) return p;
+  /// From a zero towards `end`, to where F is again more than its error, with this sign unless that is 0;
+  /// `end` if it never is.
+  double clear_of(double zero, double end, double sign = 0.0) {
+    const double least = std::max(resolution_, std::abs(std::nextafter(zero, end) - zero));
+    for (double step = least; step < std::abs(end - zero); step *= 2.0) {
+      const double p = zero + std::copysign(step, end - zero);
+      if (value(p) * sign >= 0.0 && std::abs(value(p)) > 2.0 * function_.at(p).error(upper_)) return p;
     }
-    return other;
+    return end;
   }
 
   /// |F(a)| + |F(b)| is more than F can change on the way to zero and back.
@@ -48,6 +51,12 @@ class ZeroSearch {
                                 change * (1.0 + 1e-12) + low.error(upper_) + high.error(upper_);
   }
 
+  /// F changes by less than its errors: no pair of zeros can be told from none.
+  bool indistinct(double a, double b) {
+    const auto &low = function_.at(a), &high = function_.at(b);
+    return change_between(low.point, high.point) <= low.error(upper_) + high.error(upper_);
+  }
+
   void search(double a, double b) {
     if (++pieces_ > kMostPieces)
       throw NumericalFailure("tongue " + std::to_string(function_.order()) +
@@ -56,12 +65,12 @@ class ZeroSearch {
     const double at_a = value(a), at_b = value(b);
     if ((at_a < 0.0) != (at_b < 0.0)) {
       const double position = solve(a, b);
-      search(a, position - resolution_);
+      search(a, clear_of(position, a, at_a));
       add(position, at_b > at_a);
-      search(position + resolution_, b);
+      search(clear_of(position, b, at_b), b);
       return;
     }
-    if (b - a <= resolution_ || empty(a, b)) return;
+    if (b - a <= resolution_ || empty(a, b) || indistinct(a, b)) return;
     const double middle = std::midpoint(a, b);
     search(a, middle);
     search(middle, b);

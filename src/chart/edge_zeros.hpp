@@ -15,8 +15,8 @@ struct EdgeZero {
 };
 
 /// All zeros of F on a line; that there are no others is proved but for pairs of zeros of the same edge
-/// closer to each other than `resolution` of the line. Throws NumericalFailure where too many pieces are
-/// needed for that.
+/// closer to each other than `resolution` of the line, or than the errors of F can tell apart. Throws
+/// NumericalFailure where too many pieces are needed for that.
 std::vector<EdgeZero> edge_zeros(EdgeFunction& function, bool upper, const TongueLine& line,
                                  double resolution, const std::atomic<bool>* cancel);
 

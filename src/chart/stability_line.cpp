@@ -39,23 +39,13 @@ class ChangeFinder {
     if (search.stable_to && !cancelled()) samples_.back().unstable = false;
   }
 
-  std::vector<StabilityChange> changes() {
-    look_between_samples();
-    std::vector<StabilityChange> result;
-    for (std::size_t i = 1; i < samples_.size() && !cancelled(); ++i)
-      if (samples_[i - 1].unstable != samples_[i].unstable)
-        result.push_back(located(samples_[i - 1], samples_[i]));
-    return result;
+  ChangeFinder(StabilityLine& line, const std::vector<double>& places, const ChangeSearch& search)
+      : line_(line), search_(search) {
+    for (const double p : places)
+      if (!cancelled() && (p == places.front() || p == places.back() || is_certain(p))) add(p);
+    if (search.stable_from && !samples_.empty()) samples_.front().unstable = false;
+    if (search.stable_to && !cancelled()) samples_.back().unstable = false;
   }
-
- private:
-  struct Sample {
-    double position;
-    bool unstable;
-  };
-
-  bool cancelled() const { return search_.cancel != nullptr && *search_.cancel; }
-  void add(double p) { samples_.push_back({p, line_.at(p).unstable()}); }
 
   /// Where three samples agree and the one in the middle is closest to the other verdict.
   void look_between_samples() {
@@ -71,6 +61,25 @@ class ChangeFinder {
     }
     std::ranges::sort(samples_, {}, &Sample::position);
   }
+
+  std::vector<StabilityChange> changes() {
+    std::vector<StabilityChange> result;
+    for (std::size_t i = 1; i < samples_.size() && !cancelled(); ++i)
+      if (samples_[i - 1].unstable != samples_[i].unstable)
+        result.push_back(located(samples_[i - 1], samples_[i]));
+    return result;
+  }
+
+ private:
+  struct Sample {
+    double position;
+    bool unstable;
+  };
+
+  bool is_certain(double p) { return line_.at(p).unstable() || line_.at(p).stable(); }
+
+  bool cancelled() const { return search_.cancel != nullptr && *search_.cancel; }
+  void add(double p) { samples_.push_back({p, line_.at(p).unstable()}); }
 
   template <typename Function>
   void dip(double low, double middle, double high, bool unstable, const Function& function) {
@@ -157,7 +166,14 @@ std::optional<BoundedMatrix> StabilityLine::half_period(double parameter) {
 
 std::vector<StabilityChange> stability_changes(StabilityLine& line, double from, double to,
                                                const ChangeSearch& search) {
-  return ChangeFinder(line, from, to, search).changes();
+  ChangeFinder finder(line, from, to, search);
+  finder.look_between_samples();
+  return finder.changes();
+}
+
+std::vector<StabilityChange> stability_changes(StabilityLine& line, const std::vector<double>& places,
+                                               const ChangeSearch& search) {
+  return ChangeFinder(line, places, search).changes();
 }
 
 GrowthPeak largest_growth(StabilityLine& line, double from, double to, int steps) {

@@ -18,7 +18,8 @@ class StabilityLine {
     Margin margin;
     double growth = 0.0;
     std::complex<double> leading;  ///< multiplier of the largest modulus
-    double gap = 0.0;  ///< least -Re (a - b)^2/(a b) of two multipliers: negative where they have left the circle
+    double gap =
+        0.0;  ///< least -Re (a - b)^2/(a b) of two multipliers: negative where they have left the circle
     Method method = Method::automatic;
 
     bool unstable() const { return margin.value < -margin.error; }  ///< for certain
@@ -31,8 +32,8 @@ class StabilityLine {
 
   const Point& at(double parameter);
 
-  /// The propagator over half a period of a system that is symmetric, even in time and undamped there; nothing
-  /// for others.
+  /// The propagator over half a period of a system that is symmetric, even in time and undamped there;
+  /// nothing for others.
   std::optional<BoundedMatrix> half_period(double parameter);
 
  private:
@@ -61,6 +62,10 @@ struct ChangeSearch {
 /// the margin, of its negative or of the gap between multipliers that these points surround. No other is
 /// looked for.
 std::vector<StabilityChange> stability_changes(StabilityLine& line, double from, double to,
+                                               const ChangeSearch& search);
+
+/// The changes between neighbours of these points, at least two, in order. `steps` has no meaning here.
+std::vector<StabilityChange> stability_changes(StabilityLine& line, const std::vector<double>& places,
                                                const ChangeSearch& search);
 
 /// The largest growth in [from, to], and where: the best of so many points, and Brent's method about it.

@@ -109,10 +109,13 @@ TongueEdge TongueOnLine::edge(const EdgeZero& zero, bool upper, int crossing) {
 }
 
 double TongueOnLine::secant(const EdgeZero& zero) {
-  const double step = 1e-6 * (line_.to - line_.from);
+  const double noise = 2.0 * kUnit * std::abs(function_.at(zero.position).point.mean);
+  const double step = std::max(1e-6 * (line_.to - line_.from), 256.0 * kUnit * std::abs(zero.position));
   const double low = std::max(line_.from, zero.position - step),
                high = std::min(line_.to, zero.position + step);
-  return std::abs(function_.at(high).below(zero.upper) - function_.at(low).below(zero.upper)) / (high - low);
+  const double change = std::abs(function_.at(high).below(zero.upper) - function_.at(low).below(zero.upper));
+  // on a line of a few roundings the change may be nothing else
+  return change > 1e4 * noise ? change / (high - low) : std::max(0.0, change - noise) / (high - low);
 }
 
 void TongueOnLine::add_width(const Stretch& stretch, std::vector<TongueEdge>& edges, std::size_t first) {

@@ -20,7 +20,8 @@ TonguesOfOrder::TonguesOfOrder(MonodromyEngine& engine, const Scene& scene, cons
     : line_(line),
       options_(options),
       equation_(scene, line_),
-      changes_(change_between(equation_.at(line.from), equation_.at(line.to)) != 0.0) {
+      changes_(change_between(equation_.at(line.from), equation_.at(line.to)) != 0.0),
+      extended_(scene, line.parameter, options.cancel) {
   if (is_damped(scene, line)) verdicts_.emplace(engine, scene, line.parameter, false);
 }
 
@@ -28,7 +29,7 @@ std::vector<TongueEdge> TonguesOfOrder::edges(int order) {
   if (!changes_) return {};
   TongueOnLine tongue(equation_, order, line_, options_);
   if (!verdicts_) return tongue.edges();
-  return DampedTongue(equation_, tongue, *verdicts_, line_, options_).edges();
+  return DampedTongue(equation_, tongue, *verdicts_, extended_, line_, options_).edges();
 }
 
 }  // namespace strutt

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "chart/edge_function.hpp"
+#include "chart/extended_edge.hpp"
 #include "chart/stability_line.hpp"
 
 namespace strutt {
@@ -25,6 +26,7 @@ class TonguesOfOrder {
   LineEquation equation_;
   bool changes_;  ///< whether anything changes along the line
   std::optional<StabilityLine> verdicts_;
+  ExtendedEdges extended_;
 };
 
 }  // namespace strutt
