@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "chart/edge_function.hpp"
 #include "chart/resting_resonance.hpp"
 
 namespace strutt {
@@ -81,12 +82,14 @@ std::vector<TongueCurve> CurveTracer::curves() {
   const TongueLine& over = source_.over();
   Slice previous = source_.at(over.from);
   restart(previous);
+  turn_at_rest(previous, true);
   for (int j = 1; j <= options_.slices; ++j) {
     if (options_.cancel != nullptr && *options_.cancel) break;
     Slice next = source_.at(std::lerp(over.from, over.to, static_cast<double>(j) / options_.slices));
     advance(previous, next, 0);
     previous = std::move(next);
   }
+  turn_at_rest(previous, false);
   std::vector<TongueCurve> result;
   for (const bool ends_only : {true, false})  // closed curves have no free end to begin at
     for (std::size_t i = 0; i < strands_.size(); ++i) {
@@ -129,6 +132,38 @@ bool CurveTracer::straight(const Slice& a, const Slice& middle, const Slice& b) 
     if (!(std::abs(x * v - y * u) <= options_.chord * std::hypot(x, y))) return false;
   }
   return true;
+}
+
+/// Is nothing excited there? Both edges of a tongue are then the same number.
+bool CurveTracer::at_rest(const TongueEdge& edge, double over) const {
+  Scene scene = source_.scene();
+  parameter(scene, source_.along().parameter) = edge.position;
+  parameter(scene, source_.over().parameter) = over;
+  const auto equation = LineEquation::hill_equation_of(scene);
+  return equation && equation->coefficient.is_constant();
+}
+
+/// The first or the last slice, the active strands on it: a tongue that closes there for want of excitation
+/// turns back.
+void CurveTracer::turn_at_rest(const Slice& slice, bool begins) {
+  if (order_ == kNoOrder) return;
+  for (std::size_t i = 0; i + 1 < slice.edges.size(); ++i) {
+    const TongueEdge &low = slice.edges[i].edge, &high = slice.edges[i + 1].edge;
+    if (low.upper || !high.upper || low.position != high.position || !at_rest(low, slice.over)) continue;
+    const int left = active_[i], right = active_[i + 1];
+    Strand &first = strands_[static_cast<std::size_t>(left)],
+           &second = strands_[static_cast<std::size_t>(right)];
+    (begins ? first.points.front() : first.points.back()).kind = CurvePoint::Kind::tip;
+    if (begins) {
+      second.points.erase(second.points.begin());
+      first.begin_link = right;
+      second.begin_link = left;
+    } else {
+      second.points.pop_back();
+      first.end_link = right;
+      second.end_link = left;
+    }
+  }
 }
 
 /// From slice a, where the active strands stand, to b.
@@ -220,9 +255,9 @@ void CurveTracer::begin_thin_pair(const Slice& b, std::size_t pair) {
   if (!at) return;
   CurvePoint tip = point_of(b.edges[pair].edge, over.from);
   tip.kind = CurvePoint::Kind::tip;
-  tip.along = *at;
-  tip.error = 0x1p-52;
-  tip.outcome = Outcome::converged;
+  tip.along = at->position;
+  tip.error = at->error / std::max(1.0, std::abs(at->position));
+  tip.outcome = tip.error <= options_.tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
   Strand &first = strands_[static_cast<std::size_t>(left)],
          &second = strands_[static_cast<std::size_t>(right)];
   first.points = {tip};

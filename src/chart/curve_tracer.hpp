@@ -28,6 +28,8 @@ class CurveTracer {
   void turn(const Slice& a, const Slice& b, std::size_t pair);
   bool change_thin_pairs(const Slice& a, const Slice& b);
   void begin_thin_pair(const Slice& b, std::size_t pair);
+  void turn_at_rest(const Slice& slice, bool begins);
+  bool at_rest(const TongueEdge& edge, double over) const;
   void append(const Slice& slice);
   void restart(const Slice& slice);
   int open();

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "free_pendulum/agm.hpp"
 #include "strutt/base/error.hpp"
@@ -156,10 +156,8 @@ double crossing(PeriodMethod formula, double tolerance, double sign, double low,
   const double below = excess(from), above = excess(to);
   if (below >= 0.0) return low;
   if (above <= 0.0) return high;
-  std::uintmax_t steps = 200;
   const boost::math::tools::eps_tolerance<double> done(51);
-  const auto bracket = boost::math::tools::toms748_solve(excess, from, to, below, above, done, steps);
-  double amplitude = amplitude_of(bracket.first);
+  double amplitude = amplitude_of(bracketed_zero(excess, from, to, below, above, done).low);
   while (sign * error_at(formula, amplitude) > tolerance) amplitude = std::nextafter(amplitude, 0.0);
   return amplitude;
 }
