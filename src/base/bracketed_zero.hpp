@@ -26,7 +26,7 @@ inline bool are_close(double a, double b) { return std::abs(b - a) <= 2.0 * kUni
 /// enclosed by Algorithm 748 (Alefeld, Potra, Shi 1995) until close(low, high), in at most `most` evaluations.
 template <typename Function, typename Close>
 ZeroBracket bracketed_zero(const Function& f, double low, double high, double at_low, double at_high,
-                           const Close& close, std::uintmax_t most = 200) {
+                           const Close& close, std::uintmax_t most = 100) {
   const auto [a, b] = boost::math::tools::toms748_solve(f, low, high, at_low, at_high, close, most);
   return {a, b};
 }

@@ -68,7 +68,7 @@ class ZeroSearch {
 
   double solve(double a, double b) {
     const auto [low, high] =
-        bracketed_zero([this](double p) { return value(p); }, a, b, value(a), value(b), are_neighbours);
+        bracketed_zero([this](double p) { return value(p); }, a, b, value(a), value(b), are_neighbours, 200);
     return std::abs(value(low)) < std::abs(value(high)) ? low : high;
   }
 

@@ -48,7 +48,7 @@ class SquareWaveEdge {
     const double square = 0.25 * order * order, reach = amplitude_ + 1e-9 * (1.0 + square);
     const double low = square - reach, high = square + reach;
     const double x = bracketed_zero([this](double mean) { return beyond(mean); }, low, high, beyond(low),
-                                    beyond(high), are_neighbours)
+                                    beyond(high), are_neighbours, 200)
                          .middle();
     const double size = std::abs(x) + amplitude_;
     for (double distance = 2.0 * kUnit * size; distance < size; distance *= 2.0) {

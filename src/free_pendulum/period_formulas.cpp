@@ -158,7 +158,7 @@ double crossing(PeriodMethod formula, double tolerance, double sign, double low,
   if (below >= 0.0) return low;
   if (above <= 0.0) return high;
   const boost::math::tools::eps_tolerance<double> done(51);
-  double amplitude = amplitude_of(bracketed_zero(excess, from, to, below, above, done).low);
+  double amplitude = amplitude_of(bracketed_zero(excess, from, to, below, above, done, 200).low);
   while (sign * error_at(formula, amplitude) > tolerance) amplitude = std::nextafter(amplitude, 0.0);
   return amplitude;
 }
