@@ -5,29 +5,13 @@
 #include <numeric>
 #include <optional>
 
-#include "chart/edge_function.hpp"
-#include "chart/resting_resonance.hpp"
-
 namespace strutt {
 namespace {
 
-constexpr int kDeepest = 18;        // halvings of a step for a chord
-constexpr double kApart = 0x1p-12;  // of the range: where two slices differ, they are brought so close
-constexpr double kSteep = 0x1p-40;  // the same if an edge leaves the window steeply
-constexpr double kThin = 32.0;      // of the thinnest pairs: a pair so thin vanishes there, not at a tip
-constexpr double kShift =
-    4.0;  // chords between a thin pair and its resonance at rest: a parabola's sag is a fourth
+constexpr int kDeepest = 18;          // halvings of a step for a chord
+constexpr double kApart = 0x1p-12;    // of the range: where two slices differ, they are brought so close
+constexpr double kSteep = 0x1p-40;    // the same if an edge leaves the window steeply
 constexpr double kSeveral = 0x1p-20;  // the same where several things happen at once: curves end there
-
-CurvePoint point_of(const TongueEdge& edge, double over) {
-  return {.kind = edge.upper ? CurvePoint::Kind::upper : CurvePoint::Kind::lower,
-          .along = edge.position,
-          .over = over,
-          .error = edge.error,
-          .mechanism = edge.mechanism,
-          .method = edge.method,
-          .outcome = edge.outcome};
-}
 
 /// The pair of neighbours of different kind without which `longer` looks like `shorter`, the closest of them.
 std::optional<std::size_t> extra_pair(const Slice& longer, const Slice& shorter) {
@@ -44,27 +28,6 @@ std::optional<std::size_t> extra_pair(const Slice& longer, const Slice& shorter)
   return best;
 }
 
-/// Closest pairs, lower edge first, without which `longer` looks like `shorter`: each by its place in what is
-/// left when the earlier ones are taken out.
-std::optional<std::vector<std::size_t>> thin_pairs(Slice longer, const Slice& shorter, double thin) {
-  std::vector<std::size_t> pairs;
-  while (longer.edges.size() > shorter.edges.size()) {
-    std::optional<std::size_t> best;
-    double least = thin;
-    for (std::size_t i = 0; i + 1 < longer.edges.size(); ++i) {
-      const TongueEdge &low = longer.edges[i].edge, &high = longer.edges[i + 1].edge;
-      if (low.upper || !high.upper || !(high.position - low.position < least)) continue;
-      best = i;
-      least = high.position - low.position;
-    }
-    if (!best) return std::nullopt;
-    pairs.push_back(*best);
-    longer = without_pair(std::move(longer), *best);
-  }
-  if (pairs.empty() || !same_pattern(longer, shorter)) return std::nullopt;
-  return pairs;
-}
-
 /// Whether `longer` without its first or last edge looks like `shorter`: 0, its size - 1, or nothing.
 std::optional<std::size_t> extra_end(const Slice& longer, const Slice& shorter) {
   if (longer.edges.size() != shorter.edges.size() + 1) return std::nullopt;
@@ -77,6 +40,16 @@ std::optional<std::size_t> extra_end(const Slice& longer, const Slice& shorter) 
 }
 
 }  // namespace
+
+CurvePoint point_of(const TongueEdge& edge, double over) {
+  return {.kind = edge.upper ? CurvePoint::Kind::upper : CurvePoint::Kind::lower,
+          .along = edge.position,
+          .over = over,
+          .error = edge.error,
+          .mechanism = edge.mechanism,
+          .method = edge.method,
+          .outcome = edge.outcome};
+}
 
 std::vector<TongueCurve> CurveTracer::curves() {
   const TongueLine& over = source_.over();
@@ -134,38 +107,6 @@ bool CurveTracer::straight(const Slice& a, const Slice& middle, const Slice& b) 
   return true;
 }
 
-/// Is nothing excited there? Both edges of a tongue are then the same number.
-bool CurveTracer::at_rest(const TongueEdge& edge, double over) const {
-  Scene scene = source_.scene();
-  parameter(scene, source_.along().parameter) = edge.position;
-  parameter(scene, source_.over().parameter) = over;
-  const auto equation = LineEquation::hill_equation_of(scene);
-  return equation && equation->coefficient.is_constant();
-}
-
-/// The first or the last slice, the active strands on it: a tongue that closes there for want of excitation
-/// turns back.
-void CurveTracer::turn_at_rest(const Slice& slice, bool begins) {
-  if (order_ == kNoOrder) return;
-  for (std::size_t i = 0; i + 1 < slice.edges.size(); ++i) {
-    const TongueEdge &low = slice.edges[i].edge, &high = slice.edges[i + 1].edge;
-    if (low.upper || !high.upper || low.position != high.position || !at_rest(low, slice.over)) continue;
-    const int left = active_[i], right = active_[i + 1];
-    Strand &first = strands_[static_cast<std::size_t>(left)],
-           &second = strands_[static_cast<std::size_t>(right)];
-    (begins ? first.points.front() : first.points.back()).kind = CurvePoint::Kind::tip;
-    if (begins) {
-      second.points.erase(second.points.begin());
-      first.begin_link = right;
-      second.begin_link = left;
-    } else {
-      second.points.pop_back();
-      first.end_link = right;
-      second.end_link = left;
-    }
-  }
-}
-
 /// From slice a, where the active strands stand, to b.
 void CurveTracer::advance(const Slice& a, const Slice& b, int depth) {
   const double height = source_.over().to - source_.over().from;
@@ -217,52 +158,6 @@ void CurveTracer::bend(const Slice& a, const Slice& b) {
     return append(b);
   }
   restart(b);
-}
-
-/// Pairs of a system that are in one of the slices only as they are too thin to show in the other.
-bool CurveTracer::change_thin_pairs(const Slice& a, const Slice& b) {
-  const TongueLine &along = source_.along(), &over = source_.over();
-  const bool from_rest = a.over == over.from && !source_.scene().linear->has_damping();
-  const double thin = from_rest ? options_.chord * (along.to - along.from) : kThin * source_.thinnest();
-  if (const auto pairs = thin_pairs(a, b, thin)) {
-    for (const std::size_t pair : *pairs) {
-      const auto place = active_.begin() + static_cast<std::ptrdiff_t>(pair);
-      active_.erase(place, place + 2);
-    }
-    append(b);
-    return true;
-  }
-  const auto pairs = thin_pairs(b, a, thin);
-  if (!pairs) return false;
-  std::vector<Slice> without{b};  // b as each pair is taken out
-  for (const std::size_t pair : *pairs) without.push_back(without_pair(without.back(), pair));
-  for (std::size_t i = pairs->size(); i-- > 0;) begin_thin_pair(without[i], (*pairs)[i]);
-  append(b);
-  return true;
-}
-
-/// New strands for a pair, from its resonance at the beginning of the window if there is no excitation there.
-void CurveTracer::begin_thin_pair(const Slice& b, std::size_t pair) {
-  const TongueLine &along = source_.along(), &over = source_.over();
-  const TongueEdge& low = b.edges[pair].edge;
-  const int left = open(), right = open();
-  active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(pair), {left, right});
-  Scene rest = source_.scene();
-  parameter(rest, over.parameter) = over.from;
-  const auto at = resting_resonance(rest, along, low.mechanism,
-                                    std::midpoint(low.position, b.edges[pair + 1].edge.position),
-                                    kShift * options_.chord * (along.to - along.from));
-  if (!at) return;
-  CurvePoint tip = point_of(b.edges[pair].edge, over.from);
-  tip.kind = CurvePoint::Kind::tip;
-  tip.along = at->position;
-  tip.error = at->error / std::max(1.0, std::abs(at->position));
-  tip.outcome = tip.error <= options_.tolerance ? Outcome::converged : Outcome::tolerance_not_reached;
-  Strand &first = strands_[static_cast<std::size_t>(left)],
-         &second = strands_[static_cast<std::size_t>(right)];
-  first.points = {tip};
-  first.begin_link = right;
-  second.begin_link = left;
 }
 
 /// A pair that is in one of the slices only: through the slice at its tip.

@@ -6,6 +6,9 @@
 
 namespace strutt {
 
+/// An edge as a point of a curve, lower or upper.
+CurvePoint point_of(const TongueEdge& edge, double over);
+
 /// Joins the edges of neighbouring slices to curves; see tongue_curves().
 class CurveTracer {
  public:
