@@ -8,8 +8,9 @@
 namespace strutt {
 
 StabilityParts parts_of(const std::vector<Layer>& layers) {
-  StabilityParts parts{.winding = false, .matrix = false};
+  StabilityParts parts{.verdict = false, .winding = false, .matrix = false};
   for (const Layer layer : layers) {
+    parts.verdict = parts.verdict || layer == Layer::verdict;
     parts.winding = parts.winding || layer == Layer::winding;
     parts.matrix = parts.matrix || layer == Layer::discriminant;
   }

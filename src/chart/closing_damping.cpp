@@ -1,11 +1,10 @@
 #include "strutt/chart/closing_damping.hpp"
 
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
@@ -39,8 +38,8 @@ class DampedLine {
   Stability at(double p, double damping) {
     *value_ = p;
     *damping_ = damping;
-    const auto result =
-        analyse(engine_, linear_model(scene_), sharpest(), {.winding = false, .matrix = false});
+    const auto result = analyse(engine_, linear_model(scene_), sharpest(),
+                                {.verdict = false, .winding = false, .matrix = false});
     *damping_ = 0.0;
     return result;
   }
@@ -60,13 +59,9 @@ class DampedLine {
       if (doubling == 60) return HUGE_VAL;
       high *= 1.5;
     }
-    std::uintmax_t steps = 100;
-    const auto close = [](double a, double b) { return std::abs(a - b) <= 2.0 * kUnit * std::abs(a + b); };
     const double at_high = margin(high);
     if (at_high == 0.0) return high;
-    const auto [a, b] =
-        boost::math::tools::toms748_solve(margin, 0.0, high, undamped.margin, at_high, close, steps);
-    return 0.5 * (a + b);
+    return bracketed_zero(margin, 0.0, high, undamped.margin, at_high, are_close).middle();
   }
 
   /// What the error of the margin is in damping, relative.

@@ -5,28 +5,13 @@
 #include <numeric>
 #include <optional>
 
-#include "chart/resting_resonance.hpp"
-
 namespace strutt {
 namespace {
 
-constexpr int kDeepest = 18;        // halvings of a step for a chord
-constexpr double kApart = 0x1p-12;  // of the range: where two slices differ, they are brought so close
-constexpr double kSteep = 0x1p-40;  // the same if an edge leaves the window steeply
-constexpr double kThin = 32.0;      // of the thinnest pairs: a pair so thin vanishes there, not at a tip
-constexpr double kShift =
-    4.0;  // chords between a thin pair and its resonance at rest: a parabola's sag is a fourth
+constexpr int kDeepest = 18;          // halvings of a step for a chord
+constexpr double kApart = 0x1p-12;    // of the range: where two slices differ, they are brought so close
+constexpr double kSteep = 0x1p-40;    // the same if an edge leaves the window steeply
 constexpr double kSeveral = 0x1p-20;  // the same where several things happen at once: curves end there
-
-CurvePoint point_of(const TongueEdge& edge, double over) {
-  return {.kind = edge.upper ? CurvePoint::Kind::upper : CurvePoint::Kind::lower,
-          .along = edge.position,
-          .over = over,
-          .error = edge.error,
-          .mechanism = edge.mechanism,
-          .method = edge.method,
-          .outcome = edge.outcome};
-}
 
 /// The pair of neighbours of different kind without which `longer` looks like `shorter`, the closest of them.
 std::optional<std::size_t> extra_pair(const Slice& longer, const Slice& shorter) {
@@ -43,27 +28,6 @@ std::optional<std::size_t> extra_pair(const Slice& longer, const Slice& shorter)
   return best;
 }
 
-/// Closest pairs, lower edge first, without which `longer` looks like `shorter`: each by its place in what is
-/// left when the earlier ones are taken out.
-std::optional<std::vector<std::size_t>> thin_pairs(Slice longer, const Slice& shorter, double thin) {
-  std::vector<std::size_t> pairs;
-  while (longer.edges.size() > shorter.edges.size()) {
-    std::optional<std::size_t> best;
-    double least = thin;
-    for (std::size_t i = 0; i + 1 < longer.edges.size(); ++i) {
-      const TongueEdge &low = longer.edges[i].edge, &high = longer.edges[i + 1].edge;
-      if (low.upper || !high.upper || !(high.position - low.position < least)) continue;
-      best = i;
-      least = high.position - low.position;
-    }
-    if (!best) return std::nullopt;
-    pairs.push_back(*best);
-    longer = without_pair(std::move(longer), *best);
-  }
-  if (pairs.empty() || !same_pattern(longer, shorter)) return std::nullopt;
-  return pairs;
-}
-
 /// Whether `longer` without its first or last edge looks like `shorter`: 0, its size - 1, or nothing.
 std::optional<std::size_t> extra_end(const Slice& longer, const Slice& shorter) {
   if (longer.edges.size() != shorter.edges.size() + 1) return std::nullopt;
@@ -77,16 +41,28 @@ std::optional<std::size_t> extra_end(const Slice& longer, const Slice& shorter) 
 
 }  // namespace
 
+CurvePoint point_of(const TongueEdge& edge, double over) {
+  return {.kind = edge.upper ? CurvePoint::Kind::upper : CurvePoint::Kind::lower,
+          .along = edge.position,
+          .over = over,
+          .error = edge.error,
+          .mechanism = edge.mechanism,
+          .method = edge.method,
+          .outcome = edge.outcome};
+}
+
 std::vector<TongueCurve> CurveTracer::curves() {
   const TongueLine& over = source_.over();
   Slice previous = source_.at(over.from);
   restart(previous);
+  turn_at_rest(previous, true);
   for (int j = 1; j <= options_.slices; ++j) {
     if (options_.cancel != nullptr && *options_.cancel) break;
     Slice next = source_.at(std::lerp(over.from, over.to, static_cast<double>(j) / options_.slices));
     advance(previous, next, 0);
     previous = std::move(next);
   }
+  turn_at_rest(previous, false);
   std::vector<TongueCurve> result;
   for (const bool ends_only : {true, false})  // closed curves have no free end to begin at
     for (std::size_t i = 0; i < strands_.size(); ++i) {
@@ -182,52 +158,6 @@ void CurveTracer::bend(const Slice& a, const Slice& b) {
     return append(b);
   }
   restart(b);
-}
-
-/// Pairs of a system that are in one of the slices only as they are too thin to show in the other.
-bool CurveTracer::change_thin_pairs(const Slice& a, const Slice& b) {
-  const TongueLine &along = source_.along(), &over = source_.over();
-  const bool from_rest = a.over == over.from && !source_.scene().linear->has_damping();
-  const double thin = from_rest ? options_.chord * (along.to - along.from) : kThin * source_.thinnest();
-  if (const auto pairs = thin_pairs(a, b, thin)) {
-    for (const std::size_t pair : *pairs) {
-      const auto place = active_.begin() + static_cast<std::ptrdiff_t>(pair);
-      active_.erase(place, place + 2);
-    }
-    append(b);
-    return true;
-  }
-  const auto pairs = thin_pairs(b, a, thin);
-  if (!pairs) return false;
-  std::vector<Slice> without{b};  // b as each pair is taken out
-  for (const std::size_t pair : *pairs) without.push_back(without_pair(without.back(), pair));
-  for (std::size_t i = pairs->size(); i-- > 0;) begin_thin_pair(without[i], (*pairs)[i]);
-  append(b);
-  return true;
-}
-
-/// New strands for a pair, from its resonance at the beginning of the window if there is no excitation there.
-void CurveTracer::begin_thin_pair(const Slice& b, std::size_t pair) {
-  const TongueLine &along = source_.along(), &over = source_.over();
-  const TongueEdge& low = b.edges[pair].edge;
-  const int left = open(), right = open();
-  active_.insert(active_.begin() + static_cast<std::ptrdiff_t>(pair), {left, right});
-  Scene rest = source_.scene();
-  parameter(rest, over.parameter) = over.from;
-  const auto at = resting_resonance(rest, along, low.mechanism,
-                                    std::midpoint(low.position, b.edges[pair + 1].edge.position),
-                                    kShift * options_.chord * (along.to - along.from));
-  if (!at) return;
-  CurvePoint tip = point_of(b.edges[pair].edge, over.from);
-  tip.kind = CurvePoint::Kind::tip;
-  tip.along = *at;
-  tip.error = 0x1p-52;
-  tip.outcome = Outcome::converged;
-  Strand &first = strands_[static_cast<std::size_t>(left)],
-         &second = strands_[static_cast<std::size_t>(right)];
-  first.points = {tip};
-  first.begin_link = right;
-  second.begin_link = left;
 }
 
 /// A pair that is in one of the slices only: through the slice at its tip.

@@ -6,6 +6,9 @@
 
 namespace strutt {
 
+/// An edge as a point of a curve, lower or upper.
+CurvePoint point_of(const TongueEdge& edge, double over);
+
 /// Joins the edges of neighbouring slices to curves; see tongue_curves().
 class CurveTracer {
  public:
@@ -28,6 +31,8 @@ class CurveTracer {
   void turn(const Slice& a, const Slice& b, std::size_t pair);
   bool change_thin_pairs(const Slice& a, const Slice& b);
   void begin_thin_pair(const Slice& b, std::size_t pair);
+  void turn_at_rest(const Slice& slice, bool begins);
+  bool at_rest(const TongueEdge& edge, double over) const;
   void append(const Slice& slice);
   void restart(const Slice& slice);
   int open();

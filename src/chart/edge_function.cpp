@@ -117,7 +117,7 @@ LinePoint LineEquation::at(double parameter) {
 
 double LineEquation::growth(double parameter) {
   *value_ = parameter;
-  const StabilityParts parts{.winding = false, .matrix = false};
+  const StabilityParts parts{.verdict = false, .winding = false, .matrix = false};
   return analyse(engine_, linear_model(scene_), {.tolerance = 1e-13}, parts).growth;
 }
 

@@ -92,7 +92,8 @@ Margin EdgeSurface::at(const std::vector<double>& x) {
     validate(scene_);
     const LinearModel model = linear_model(scene_);
     if (edge_) return edge_distance(std::get<HillEquation>(model), *edge_);
-    const Stability s = analyse(engine_, model, sharpest(), {.winding = false, .matrix = false});
+    const Stability s =
+        analyse(engine_, model, sharpest(), {.verdict = false, .winding = false, .matrix = false});
     method_ = s.method;
     return {margin_sign_ * s.margin, s.margin_error};
   } catch (const InvalidInput&) {

@@ -1,11 +1,10 @@
 #include "chart/edge_zeros.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 
+#include "base/bracketed_zero.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -77,11 +76,9 @@ class ZeroSearch {
   }
 
   double solve(double a, double b) {
-    std::uintmax_t steps = 200;
-    const auto neighbours = [](double x, double y) { return std::nextafter(x, y) == y || x == y; };
-    const auto bracket = boost::math::tools::toms748_solve([this](double p) { return value(p); }, a, b,
-                                                           value(a), value(b), neighbours, steps);
-    return std::abs(value(bracket.first)) < std::abs(value(bracket.second)) ? bracket.first : bracket.second;
+    const auto [low, high] =
+        bracketed_zero([this](double p) { return value(p); }, a, b, value(a), value(b), are_neighbours, 200);
+    return std::abs(value(low)) < std::abs(value(high)) ? low : high;
   }
 
   EdgeFunction& function_;

@@ -110,7 +110,8 @@ const Scene& BoxScene::at(const std::vector<double>& values) {
 }
 
 Stability BoxScene::stability(const std::vector<double>& values) {
-  return analyse(engine_, model(values), {.tolerance = 1e-12}, {.winding = false, .matrix = false});
+  return analyse(engine_, model(values), {.tolerance = 1e-12},
+                 {.verdict = false, .winding = false, .matrix = false});
 }
 
 void bound_growth(BoxScene& scene, GrowthCell& cell) {

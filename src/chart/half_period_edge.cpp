@@ -4,12 +4,10 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <optional>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 
 namespace strutt {
@@ -38,19 +36,16 @@ std::optional<StabilityChange> simple_zero(StabilityLine& line, double low, doub
   const Margin at_low = value(low), at_high = value(high);
   const auto certain = [](const Margin& m) { return std::abs(m.value) > m.error; };
   if (!certain(at_low) || !certain(at_high) || at_low.value * at_high.value > 0.0) return std::nullopt;
-  std::uintmax_t steps = 100;
-  const auto bracket =
-      boost::math::tools::toms748_solve([&](double p) { return value(p).value; }, low, high, at_low.value,
-                                        at_high.value, boost::math::tools::eps_tolerance<double>(52), steps);
   StabilityChange zero;
-  zero.position = std::midpoint(bracket.first, bracket.second);
+  zero.position = bracketed_zero([&](double p) { return value(p).value; }, low, high, at_low.value,
+                                 at_high.value, boost::math::tools::eps_tolerance<double>(52))
+                      .middle();
   const auto distance_to = [&](double end, double sign) {
-    const double whole = std::abs(end - zero.position);
-    for (double d = kUnit * std::max(std::abs(zero.position), whole); d < whole; d *= 2.0) {
-      const Margin m = value(zero.position + std::copysign(d, end - zero.position));
-      if (certain(m) && m.value * sign > 0.0) return d;
-    }
-    return whole;
+    const double first = kUnit * std::max(std::abs(zero.position), std::abs(end - zero.position));
+    return certain_distance(zero.position, end, first, [&](double p) {
+      const Margin m = value(p);
+      return certain(m) && m.value * sign > 0.0;
+    });
   };
   zero.error = std::max(distance_to(low, at_low.value), distance_to(high, at_high.value)) +
                kUnit * std::abs(zero.position);

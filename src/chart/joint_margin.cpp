@@ -1,11 +1,10 @@
 #include "chart/joint_margin.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "chart/edge_surface.hpp"
 #include "strutt/floquet/sensitivity.hpp"
@@ -98,15 +97,11 @@ class NearestPoint {
 
   Ray solved(const Vector& direction, double low, double high) {
     const auto f = [&](double length) { return value(direction, length); };
-    std::uintmax_t steps = 100;
-    const auto close = [](double a, double b) { return std::abs(b - a) <= 2.0 * kUnit * std::abs(a + b); };
     const double at_low = f(low), at_high = f(high);
-    auto bracket = std::pair(high, high);
-    if (at_high < 0.0)
-      bracket = boost::math::tools::toms748_solve(f, low, high, at_low, at_high, close, steps);
-    const double length = 0.5 * (bracket.first + bracket.second);
-    Ray result{
-        length, uncertainty(direction, length, std::abs(bracket.second - bracket.first)), direction, {}};
+    ZeroBracket bracket{high, high};
+    if (at_high < 0.0) bracket = bracketed_zero(f, low, high, at_low, at_high, are_close);
+    const double length = bracket.middle();
+    Ray result{length, uncertainty(direction, length, bracket.high - bracket.low), direction, {}};
     result.normal = surface_.normal(point(result), direction);
     if (result.normal.empty()) return result;
     const Vector difference = combined(result.normal, -1.0, direction);

@@ -1,13 +1,15 @@
 #include "chart/resting_resonance.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <vector>
+
+#include "base/bracketed_zero.hpp"
+#include "base/constants.hpp"
+#include "strutt/floquet/verdict.hpp"
 
 namespace strutt {
 namespace {
@@ -22,23 +24,47 @@ bool is_at_rest(const LinearPeriodicSystem& system) {
                              [](const MatrixHarmonic& h) { return is_zero(h.cosine) && is_zero(h.sine); });
 }
 
+/// T w/pi with bounds of their errors.
+struct HalfTurns {
+  std::vector<double> value, error;
+
+  Margin excess(std::size_t i, std::size_t j, double k) const {
+    const double turns = 0.5 * (value[i] + value[j]);
+    return {turns - k, 0.5 * (error[i] + error[j]) + 2.0 * kUnit * turns};
+  }
+};
+
+/// Bounds of the errors of the eigenvalues w^2 of K x = w^2 M x, p(n) u |M^-1| (|K| + w^2 |M|) (LAPACK Users'
+/// Guide, generalized symmetric definite eigenproblem), with p(n) = 4 n^2.
+Eigen::VectorXd errors_of(const Eigen::VectorXd& squares, const Eigen::MatrixXd& stiffness,
+                          const Eigen::MatrixXd& mass) {
+  const auto n = static_cast<double>(mass.rows());
+  const double inverse = mass.inverse().norm(), units = 4.0 * n * n * kUnit * inverse;
+  return (units * (stiffness.norm() + squares.array() * mass.norm())).matrix();
+}
+
 class RestingLine {
  public:
   RestingLine(const Scene& scene, const std::string& path)
       : scene_(scene), value_(&parameter(scene_, path)) {}
   RestingLine(const RestingLine&) = delete;
 
-  /// T w/pi, ascending; empty where there is an equation of another kind.
-  std::vector<double> half_turns(double p) {
+  /// Ascending; nothing where there is an equation of another kind.
+  std::optional<HalfTurns> half_turns(double p) {
     *value_ = p;
     const LinearModel model = linear_model(scene_);
     const auto* system = std::get_if<LinearPeriodicSystem>(&model);
-    if (system == nullptr || !is_at_rest(*system)) return {};
+    if (system == nullptr || !is_at_rest(*system)) return std::nullopt;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
         system->stiffness.mean, system->mass, Eigen::EigenvaluesOnly);
-    if (modes.info() != Eigen::Success || !(modes.eigenvalues().minCoeff() > 0.0)) return {};
-    std::vector<double> result;
-    for (const double square : modes.eigenvalues()) result.push_back(system->period * std::sqrt(square) / pi);
+    if (modes.info() != Eigen::Success || !(modes.eigenvalues().minCoeff() > 0.0)) return std::nullopt;
+    const auto errors = errors_of(modes.eigenvalues(), system->stiffness.mean, system->mass);
+    HalfTurns result;
+    for (Eigen::Index i = 0; i < errors.size(); ++i) {
+      const double square = modes.eigenvalues()[i], turns = system->period * std::sqrt(square) / pi;
+      result.value.push_back(turns);
+      result.error.push_back(turns * (errors[i] / square + 4.0 * kUnit));
+    }
     return result;
   }
 
@@ -47,33 +73,62 @@ class RestingLine {
   double* value_;
 };
 
+/// Two modes and the number of half turns that both make at their resonance.
+struct Pair {
+  std::size_t i, j;
+  double k;
+};
+
+std::optional<Pair> resonant_pair(const HalfTurns& turns, std::size_t i, std::size_t j, Mechanism mechanism) {
+  if ((i != j) != (mechanism == Mechanism::complex_pair)) return std::nullopt;
+  const double k = std::round(turns.excess(i, j, 0.0).value);
+  const bool odd = std::fmod(k, 2.0) != 0.0;
+  if (k < 1.0 || (i == j && odd != (mechanism == Mechanism::minus_one))) return std::nullopt;
+  return Pair{i, j, k};
+}
+
+/// Between two ends with excesses of certain and opposite signs.
+std::optional<RestingResonance> resonance_of(RestingLine& line, const Pair& pair, double from, double to) {
+  const auto excess = [&](double p) {
+    const auto turns = line.half_turns(p);
+    return turns ? turns->excess(pair.i, pair.j, pair.k) : Margin{kNaN, kNaN};
+  };
+  const Margin low = excess(from), high = excess(to);
+  const auto certain = [](const Margin& m) { return std::abs(m.value) > m.error; };
+  if (!certain(low) || !certain(high) || low.value * high.value > 0.0) return std::nullopt;
+  const auto value = [&](double p) {
+    const Margin found = excess(p);
+    return std::isnan(found.value) ? low.value : found.value;
+  };
+  const double position =
+      bracketed_zero(value, from, to, low.value, high.value, boost::math::tools::eps_tolerance<double>(52))
+          .middle();
+  const auto distance_to = [&](double end, double sign) {
+    const double first = kUnit * std::max(std::abs(position), std::abs(end - position));
+    return certain_distance(position, end, first, [&](double p) {
+      const Margin found = excess(p);
+      return certain(found) && found.value * sign > 0.0;
+    });
+  };
+  return RestingResonance{position, std::max(distance_to(from, low.value), distance_to(to, high.value)) +
+                                        kUnit * std::abs(position)};
+}
+
 }  // namespace
 
-std::optional<double> resting_resonance(const Scene& rest, const TongueLine& along, Mechanism mechanism,
-                                        double near, double within) {
+std::optional<RestingResonance> resting_resonance(const Scene& rest, const TongueLine& along,
+                                                  Mechanism mechanism, double near, double within) {
   RestingLine line(rest, along.parameter);
   const double from = std::max(along.from, near - within), to = std::min(along.to, near + within);
-  const auto middle = line.half_turns(near), low = line.half_turns(from), high = line.half_turns(to);
-  if (middle.empty() || low.empty() || high.empty()) return std::nullopt;
-  std::optional<double> best;
-  for (std::size_t i = 0; i < middle.size(); ++i)
+  const auto middle = line.half_turns(near);
+  if (!middle || !line.half_turns(from) || !line.half_turns(to)) return std::nullopt;
+  std::optional<RestingResonance> best;
+  for (std::size_t i = 0; i < middle->value.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
-      if ((i != j) != (mechanism == Mechanism::complex_pair)) continue;
-      const auto turns = [&](const std::vector<double>& t) { return 0.5 * (t[i] + t[j]); };
-      const double k = std::round(turns(middle));
-      const bool odd = std::fmod(k, 2.0) != 0.0;
-      if (k < 1.0 || (i == j && odd != (mechanism == Mechanism::minus_one))) continue;
-      const double at_low = turns(low) - k, at_high = turns(high) - k;
-      if (!(at_low * at_high < 0.0)) continue;
-      const auto excess = [&](double p) {
-        const auto t = line.half_turns(p);
-        return t.empty() ? at_low : turns(t) - k;
-      };
-      std::uintmax_t steps = 100;
-      const auto root = boost::math::tools::toms748_solve(
-          excess, from, to, at_low, at_high, boost::math::tools::eps_tolerance<double>(52), steps);
-      const double p = std::midpoint(root.first, root.second);
-      if (!best || std::abs(p - near) < std::abs(*best - near)) best = p;
+      const auto pair = resonant_pair(*middle, i, j, mechanism);
+      const auto found = pair ? resonance_of(line, *pair, from, to) : std::nullopt;
+      if (found && (!best || std::abs(found->position - near) < std::abs(best->position - near)))
+        best = found;
     }
   return best;
 }

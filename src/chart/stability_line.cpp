@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "strutt/base/error.hpp"
 
@@ -100,15 +99,13 @@ class ChangeFinder {
       if (p == stable_end) return std::clamp(margin.value, 1e-300, 1.0);
       return std::clamp(proved ? margin.value : margin.value + margin.error, -1.0, 1.0);
     };
-    std::uintmax_t steps = 200;
-    const auto neighbours = [](double x, double y) { return std::nextafter(x, y) == y || x == y; };
-    const auto bracket = boost::math::tools::toms748_solve(
-        value, low.position, high.position, value(low.position), value(high.position), neighbours, steps);
-    StabilityChange change{.position = std::midpoint(bracket.first, bracket.second), .begins = high.unstable};
-    const double to_unstable = certain_distance(change.position, unstable_end, true);
+    const ZeroBracket bracket = bracketed_zero(value, low.position, high.position, value(low.position),
+                                               value(high.position), are_neighbours, 200);
+    StabilityChange change{.position = bracket.middle(), .begins = high.unstable};
+    const double to_unstable = distance_to(change.position, unstable_end, true);
     change.unstable_at = change.position + std::copysign(to_unstable, unstable_end - change.position);
     // where nothing proves stability the points that were looked at bound the change
-    change.error = proved ? std::max(certain_distance(change.position, stable_end, false), to_unstable) +
+    change.error = proved ? std::max(distance_to(change.position, stable_end, false), to_unstable) +
                                 kUnit * std::abs(change.position)
                           : high.position - low.position;
     return change;
@@ -120,13 +117,11 @@ class ChangeFinder {
   }
 
   /// How far from p towards `end` the verdict is certain.
-  double certain_distance(double p, double end, bool unstable) {
-    const double whole = std::abs(end - p);
-    for (double d = kUnit * std::max(std::abs(p), whole); d < whole; d *= 2.0) {
-      const auto& point = line_.at(p + std::copysign(d, end - p));
-      if (unstable ? point.unstable() : point.stable()) return d;
-    }
-    return whole;
+  double distance_to(double p, double end, bool unstable) {
+    const double first = kUnit * std::max(std::abs(p), std::abs(end - p));
+    return certain_distance(p, end, first, [&](double place) {
+      return unstable ? line_.at(place).unstable() : line_.at(place).stable();
+    });
   }
 
   StabilityLine& line_;
@@ -143,7 +138,7 @@ StabilityLine::StabilityLine(MonodromyEngine& engine, const Scene& scene, const 
 const StabilityLine::Point& StabilityLine::at(double parameter) {
   if (const auto found = known_.find(parameter); found != known_.end()) return found->second;
   *value_ = parameter;
-  const StabilityParts parts{.winding = false, .matrix = multipliers_};
+  const StabilityParts parts{.verdict = false, .winding = false, .matrix = multipliers_};
   const Stability s = analyse(engine_, linear_model(scene_), {.tolerance = kTolerance}, parts);
   Point point;
   point.margin = {s.margin, s.margin_error};

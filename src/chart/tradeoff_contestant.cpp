@@ -78,9 +78,9 @@ Contestant::Contestant(Method method, double tolerance, const TradeoffRequest& r
 }
 
 void Contestant::judge(const Questions& questions) {
-  const auto results = chart_
-                           ? interpolated(questions)
-                           : analyse(engine_, questions.models, options_, {.winding = false, .matrix = true});
+  const auto results = chart_ ? interpolated(questions)
+                              : analyse(engine_, questions.models, options_,
+                                        {.verdict = false, .winding = false, .matrix = true});
   row_.points = results.size();
   row_.used = methods_in(results);
   const auto count = static_cast<double>(results.size());
@@ -115,8 +115,9 @@ std::vector<Stability> Contestant::interpolated(const Questions& questions) {
     const auto& row = questions.rows[i];
     auto found =
         surrogate.cancelled() ? std::nullopt : answer(surrogate, questions.models[i], row[0], row[1]);
-    results.push_back(found ? *std::move(found)
-                            : analyse(engine_, questions.models[i], point_by_point, {.winding = false}));
+    results.push_back(
+        found ? *std::move(found)
+              : analyse(engine_, questions.models[i], point_by_point, {.verdict = false, .winding = false}));
   }
   return results;
 }
@@ -151,7 +152,8 @@ TradeoffRow Contestant::row() const {
 double Contestant::seconds_per_batch(const std::vector<LinearModel>& batch, double at_least) {
   const double begin = thread_seconds();
   for (double runs = 1.0;; ++runs) {
-    const auto results = analyse(engine_, batch, options_, {.winding = false, .matrix = false});
+    const auto results =
+        analyse(engine_, batch, options_, {.verdict = false, .winding = false, .matrix = false});
     const double spent = thread_seconds() - begin;
     if (spent >= at_least || results.front().outcome == Outcome::cancelled) return spent / runs;
   }

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "strutt/base/error.hpp"
 
@@ -100,11 +99,7 @@ class MarginScan {
       const double m = unstable_before ? -s.margin : s.margin;
       return std::isfinite(m) && m * side > 0.0 ? m : side * 1e-18;
     };
-    std::uintmax_t steps = 100;
-    const auto close = [](double x, double y) { return std::abs(y - x) <= 2.0 * kUnit * std::abs(x + y); };
-    const auto [low, high] =
-        boost::math::tools::toms748_solve(smooth, a, b, smooth(a), smooth(b), close, steps);
-    const double position = 0.5 * (low + high);
+    const double position = bracketed_zero(smooth, a, b, smooth(a), smooth(b), are_close).middle();
     // beyond a and b: one of them may be just where the line touches the other side
     const double before = certain(position, std::max(from_, 2.0 * a - b), unstable_before),
                  after = certain(position, std::min(to_, 2.0 * b - a), !unstable_before);

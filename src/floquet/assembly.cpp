@@ -85,6 +85,7 @@ Monodromy widened(const HillMonodromy& m) {
                    .kappa = m.kappa,
                    .error = m.error,
                    .determinant_defect = m.determinant_defect,
+                   .sharpest = m.sharpest,
                    .method = m.method,
                    .outcome = m.outcome,
                    .cost = m.cost,

@@ -52,7 +52,7 @@ HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance)
   MonodromyOptions{.tolerance = tolerance}.validate();
   const int highest = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
   coefficient_error_ = HillSeries::evaluation_error(highest);
-  const auto [first, lowest] = series_ladder(tolerance);
+  const auto [first, lowest] = series_ladder({.tolerance = tolerance});
   local_tolerances_.push_back(first);
   while (local_tolerances_.back() > lowest)
     local_tolerances_.push_back(std::max(kLadderStep * local_tolerances_.back(), lowest));

@@ -67,7 +67,7 @@ HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
   const auto segments = method == Method::exact ? y.pieces : subdivided(y.pieces, y.w);
   if (segments.empty()) return without_result<Eigen::Matrix2d>(method, Outcome::step_limit);
   HillMonodromy result =
-      tighten(sundials_ladder(options.tolerance), options.tolerance, [&](double local_tolerance) {
+      tighten(sundials_ladder(options), options.tolerance, [&](double local_tolerance) {
         const auto found = method == Method::exact
                                ? closed_form_propagators(equation, y.w, segments, y.kappa)
                                : integrated_propagators(
@@ -77,6 +77,7 @@ HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
         return y.assembled(found, segments);
       });
   result.method = method;
+  result.sharpest = result.sharpest || method == Method::exact;
   return result;
 }
 

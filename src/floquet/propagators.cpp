@@ -25,15 +25,20 @@ PropagatorOptions propagator_options(const MonodromyOptions& options, double loc
           .cancel = options.cancel};
 }
 
-ToleranceLadder sundials_ladder(double tolerance) {
-  return {std::clamp(kLocalShare * tolerance, kLowestLocalTolerance, kHighestLocalTolerance),
-          kLowestLocalTolerance};
+ToleranceLadder sundials_ladder(const MonodromyOptions& options) {
+  const double first =
+      std::clamp(kLocalShare * options.tolerance, kLowestLocalTolerance, kHighestLocalTolerance);
+  return {options.sharpest ? kLowestLocalTolerance : first, kLowestLocalTolerance};
 }
 
-ToleranceLadder series_ladder(double tolerance) { return {kSeriesShare * tolerance, kLowestSeriesTolerance}; }
+ToleranceLadder series_ladder(const MonodromyOptions& options) {
+  return {options.sharpest ? kLowestSeriesTolerance : kSeriesShare * options.tolerance,
+          kLowestSeriesTolerance};
+}
 
-ToleranceLadder taylor_ladder(double tolerance) {
-  return {kTaylorShare * tolerance, kLowestTaylorTolerance};
+ToleranceLadder taylor_ladder(const MonodromyOptions& options) {
+  return {options.sharpest ? kLowestTaylorTolerance : kTaylorShare * options.tolerance,
+          kLowestTaylorTolerance};
 }
 
 }  // namespace strutt

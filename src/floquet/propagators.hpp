@@ -78,9 +78,9 @@ BasicMonodromy<Matrix> combined(const Propagators<Matrix>& propagators, const Pu
 struct ToleranceLadder {
   double first, lowest;
 };
-ToleranceLadder sundials_ladder(double tolerance);   // of a step
-ToleranceLadder series_ladder(double tolerance);    // of a piece
-ToleranceLadder taylor_ladder(double tolerance);     // of the period
+ToleranceLadder sundials_ladder(const MonodromyOptions& options);  // of a step
+ToleranceLadder series_ladder(const MonodromyOptions& options);    // of a piece
+ToleranceLadder taylor_ladder(const MonodromyOptions& options);    // of the period
 inline constexpr double kLadderStep = 0.01;
 
 /// How `result` ended, now that nothing tighter is tried.
@@ -106,6 +106,7 @@ auto tighten(const ToleranceLadder& ladder, double tolerance, const Attempt& att
     result.cost += spent;
     result.estimate_cost += spent_estimating;
   }
+  result.sharpest = !(local > ladder.lowest);
   judge(result, tolerance);
   return result;
 }

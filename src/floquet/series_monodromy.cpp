@@ -51,13 +51,14 @@ std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
   std::vector<HillMonodromy> results(equations.size());
   std::vector<std::size_t> wanted(equations.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = i;
-  const ToleranceLadder ladder = series_ladder(options.tolerance);
+  const ToleranceLadder ladder = series_ladder(options);
   double local = ladder.first;
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   while (!wanted.empty() && !cancelled()) {
     attempt(tables, undamped, wanted, local, results);
     const bool last = local <= ladder.lowest;
     std::erase_if(wanted, [&](std::size_t i) {
+      results[i].sharpest = last;
       return last || results[i].outcome != Outcome::converged || results[i].error <= options.tolerance;
     });
     local = std::max(kLadderStep * local, ladder.lowest);

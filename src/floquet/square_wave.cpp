@@ -1,12 +1,11 @@
 #include "floquet/square_wave.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <numeric>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "strutt/base/bounded_matrix.hpp"
 #include "strutt/floquet/constant_propagator.hpp"
@@ -47,11 +46,11 @@ class SquareWaveEdge {
   /// |edge - n^2/4| <= A.
   CharacteristicValue value(int order) const {
     const double square = 0.25 * order * order, reach = amplitude_ + 1e-9 * (1.0 + square);
-    std::uintmax_t steps = 200;
-    const auto neighbours = [](double x, double y) { return std::nextafter(x, y) == y || x == y; };
-    const auto bracket = boost::math::tools::toms748_solve([this](double x) { return beyond(x); },
-                                                           square - reach, square + reach, neighbours, steps);
-    const double x = std::midpoint(bracket.first, bracket.second), size = std::abs(x) + amplitude_;
+    const double low = square - reach, high = square + reach;
+    const double x = bracketed_zero([this](double mean) { return beyond(mean); }, low, high, beyond(low),
+                                    beyond(high), are_neighbours, 200)
+                         .middle();
+    const double size = std::abs(x) + amplitude_;
     for (double distance = 2.0 * kUnit * size; distance < size; distance *= 2.0) {
       const int below = sign(x - distance), above = sign(x + distance);
       if (below * above < 0) return {x, distance * (1.0 + 4.0 * kUnit)};

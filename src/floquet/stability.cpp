@@ -72,6 +72,59 @@ void finish(Stability& result, const Margin& margin, double growth, double perio
   result.growth_per_time = growth / period;
 }
 
+/// Is the point to be computed again, as accurately as the method can?
+template <typename Matrix>
+bool may_be_decided(const Stability& result, const BasicMonodromy<Matrix>& monodromy,
+                    const MonodromyOptions& options, const StabilityParts& parts) {
+  return parts.verdict && options.estimate_error && !monodromy.sharpest &&
+         result.outcome == Outcome::converged && result.verdict == Verdict::unresolved;
+}
+
+MonodromyOptions sharpest(MonodromyOptions options) {
+  options.sharpest = true;
+  return options;
+}
+
+/// At the cost of both.
+Stability better_of(Stability first, Stability sharper) {
+  const bool better = sharper.outcome == Outcome::converged && sharper.margin_error < first.margin_error;
+  auto& result = better ? sharper : first;
+  const auto& other = better ? first : sharper;
+  result.cost += other.cost;
+  result.estimate_cost += other.estimate_cost;
+  return std::move(result);
+}
+
+Stability analyse_system(MonodromyEngine& engine, const LinearPeriodicSystem& system,
+                         const MonodromyOptions& options, const StabilityParts& parts) {
+  const auto monodromy = engine.compute(system, options);
+  auto result = assess(system, monodromy, parts);
+  if (!may_be_decided(result, monodromy, options, parts)) return result;
+  return better_of(std::move(result), analyse_system(engine, system, sharpest(options), parts));
+}
+
+/// Side by side.
+std::vector<Stability> analyse_hill(MonodromyEngine& engine, std::span<const HillEquation> equations,
+                                    const MonodromyOptions& options, const StabilityParts& parts) {
+  const auto monodromies = engine.compute(equations, options);
+  std::vector<Stability> results;
+  std::vector<HillEquation> open;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < equations.size(); ++i) {
+    results.push_back(assess(equations[i], monodromies[i], parts));
+    if (!may_be_decided(results[i], monodromies[i], options, parts)) continue;
+    open.push_back(equations[i]);
+    places.push_back(i);
+  }
+  if (open.empty()) return results;
+  auto sharper = analyse_hill(engine, open, sharpest(options), parts);
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    auto& result = results[places[k]];
+    result = better_of(std::move(result), std::move(sharper[k]));
+  }
+  return results;
+}
+
 }  // namespace
 
 Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts) {
@@ -159,13 +212,11 @@ std::vector<Stability> analyse(MonodromyEngine& engine, std::span<const LinearMo
       equations.push_back(*std::move(equation));
       places.push_back(i);
     } else {
-      results[i] = assess(*system, engine.compute(*system, options), parts);
+      results[i] = analyse_system(engine, *system, options, parts);
     }
   }
-  const auto monodromies = engine.compute(equations, options);
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    results[places[j]] = assess(equations[j], monodromies[j], parts);
-  }
+  auto found = analyse_hill(engine, equations, options, parts);
+  for (std::size_t j = 0; j < places.size(); ++j) results[places[j]] = std::move(found[j]);
   return results;
 }
 

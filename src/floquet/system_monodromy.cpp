@@ -50,7 +50,7 @@ Monodromy integrated(PropagatorPool& pool, const UndampedSystem& y, Method metho
                                                                  StateOut dydt) mutable {
     right_hand_side(theta, state, dydt);
   };
-  return tighten(sundials_ladder(options.tolerance), options.tolerance, [&](double local_tolerance) {
+  return tighten(sundials_ladder(options), options.tolerance, [&](double local_tolerance) {
     Propagators<Eigen::MatrixXd> propagators;
     auto& integrator = pool.integrator(n, method);
     for (int j = 0; j < parts; ++j) {

@@ -32,7 +32,7 @@ Propagators<Eigen::MatrixXd> propagated(const TaylorEquation& equation, const Ta
 Monodromy taylor_monodromy(const UndampedSystem& y, const MonodromyOptions& options) {
   const int half_periods = y.even_symmetric ? 1 : 2;
   const TaylorEquation equation{y.damping, y.stiffness, y.coefficient_error * y.rate};
-  return tighten(taylor_ladder(options.tolerance), options.tolerance, [&](double local_tolerance) {
+  return tighten(taylor_ladder(options), options.tolerance, [&](double local_tolerance) {
     const auto plan = plan_taylor_steps(equation, half_periods, local_tolerance);
     if (plan.steps == 0) return without_result<Eigen::MatrixXd>(Method::propagator, Outcome::step_limit);
     const auto found = propagated(equation, plan, half_periods, options);

@@ -4,6 +4,7 @@
 
 #include "free_pendulum/double_double.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -28,6 +29,7 @@ void Eigenfrequency::validate() const {
 }
 
 Eigenfrequency eigenfrequency(const PendulumTable& pendulum) {
+  const DefaultFloatingPoint environment;
   const DoubleDouble alpha = sqrt(alpha_squared(pendulum));
   const Eigenfrequency result{alpha.hi, alpha.lo};
   result.validate();

@@ -6,6 +6,7 @@
 
 #include "free_pendulum/agm.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -24,13 +25,18 @@ double other(double k) {
 }  // namespace
 
 ComplementaryModulus complementary(Modulus k) {
+  const DefaultFloatingPoint environment;
   require(k.value >= 0.0 && k.value <= 1.0, "modulus", k.value, "from 0 to 1");
   return ComplementaryModulus(other(k.value));
 }
 
-Modulus modulus(ComplementaryModulus k_prime) { return Modulus(other(checked(k_prime, true))); }
+Modulus modulus(ComplementaryModulus k_prime) {
+  const DefaultFloatingPoint environment;
+  return Modulus(other(checked(k_prime, true)));
+}
 
 double arithmetic_geometric_mean(double a, double b) {
+  const DefaultFloatingPoint environment;
   require(a >= 0.0 && std::isfinite(a), "a", a, "finite and >= 0");
   require(b >= 0.0 && std::isfinite(b), "b", b, "finite and >= 0");
   if (a == 0.0 || b == 0.0) return 0.0;
@@ -44,12 +50,14 @@ double arithmetic_geometric_mean(double a, double b) {
 }
 
 double complete_integral(ComplementaryModulus k_prime) {
+  const DefaultFloatingPoint environment;
   const double k = checked(k_prime, true);
   if (k == 0.0) return std::numeric_limits<double>::infinity();
   return (kPi / ldexp(AgmSteps(1.0, k).mean(), 1)).hi;
 }
 
 double complete_integral_second_kind(ComplementaryModulus k_prime) {
+  const DefaultFloatingPoint environment;
   const double k = checked(k_prime, true);
   constexpr double kNegligible = 1e-20;  // E = 1 + (k'^2/2) (ln(4/k') - 1/2) + ...
   if (k < kNegligible) return 1.0;
@@ -61,6 +69,7 @@ double complete_integral_second_kind(ComplementaryModulus k_prime) {
 }
 
 double incomplete_integral(double psi, ComplementaryModulus k_prime) {
+  const DefaultFloatingPoint environment;
   constexpr double kFurthest = 1e9;
   require(std::abs(psi) <= kFurthest, "psi", psi, "from -1e9 to 1e9");
   const AgmSteps agm(1.0, checked(k_prime, false));
@@ -72,6 +81,7 @@ double incomplete_integral(double psi, ComplementaryModulus k_prime) {
 }
 
 JacobiFunctions jacobi_functions(double turns, ComplementaryModulus k_prime) {
+  const DefaultFloatingPoint environment;
   require(std::abs(turns) <= 0x1p52, "turns", turns, "from -2^52 to 2^52");
   const AgmSteps::Amplitude a = AgmSteps(1.0, checked(k_prime, false)).amplitude(turns - std::round(turns));
   return {a.sn.hi, a.cn.hi, a.dn.hi};

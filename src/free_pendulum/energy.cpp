@@ -5,6 +5,7 @@
 #include "base/constants.hpp"
 #include "free_pendulum/orbit_start.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -94,10 +95,12 @@ EnergyIntegral energy_integral(const OrbitStart& start) {
 }
 
 EnergyIntegral energy_integral(double angle, double velocity) {
+  const DefaultFloatingPoint environment;
   return energy_integral(orbit_start(angle, velocity, 0.0));
 }
 
 EnergyIntegral energy_integral(double separatrix_excess) {
+  const DefaultFloatingPoint environment;
   const double e = separatrix_excess;
   require(e >= -4.0 && std::isfinite(e), "separatrix_excess", e, "finite and >= -4");
   EnergyIntegral integral{.separatrix_excess = e};
@@ -110,6 +113,7 @@ EnergyIntegral energy_integral(double separatrix_excess) {
 }
 
 EquilibriumPoint equilibrium_point(int index, double alpha) {
+  const DefaultFloatingPoint environment;
   require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "finite and > 0");
   EquilibriumPoint point;
   point.angle = index * kPi.hi;
@@ -121,14 +125,19 @@ EquilibriumPoint equilibrium_point(int index, double alpha) {
   return point;
 }
 
-double separatrix_angle(double tau) { return 2.0 * std::atan(std::sinh(tau)); }
+double separatrix_angle(double tau) {
+  const DefaultFloatingPoint environment;
+  return 2.0 * std::atan(std::sinh(tau));
+}
 
 double separatrix_velocity(double tau) {
+  const DefaultFloatingPoint environment;
   const double decay = std::exp(-std::abs(tau));
   return 4.0 * decay / (1.0 + decay * decay);
 }
 
 double separatrix_time(double angle) {
+  const DefaultFloatingPoint environment;
   require(std::abs(angle) <= kPi.hi, "angle", angle, "between -pi and pi");
   return std::asinh(std::tan(0.5 * angle));
 }

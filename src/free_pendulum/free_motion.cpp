@@ -9,6 +9,7 @@
 #include "free_pendulum/agm.hpp"
 #include "free_pendulum/orbit_start.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -148,6 +149,7 @@ FreeState FreeMotion::Orbit::local_state(DoubleDouble tau) const {
 }
 
 FreeMotion::FreeMotion(const Eigenfrequency& alpha, double angle, double velocity) {
+  const DefaultFloatingPoint environment;
   alpha.validate();
   require(std::isfinite(velocity), "velocity", velocity, "finite");
   auto orbit = std::make_shared<Orbit>();
@@ -163,6 +165,7 @@ FreeMotion::FreeMotion(const Eigenfrequency& alpha, double angle, double velocit
 const EnergyIntegral& FreeMotion::energy() const { return orbit_->energy; }
 
 FreeState FreeMotion::at(double t) const {
+  const DefaultFloatingPoint environment;
   require(std::isfinite(t), "t", t, "finite");
   const DoubleDouble tau = orbit_->alpha * DoubleDouble(t);
   // The phase itself must be finite.
@@ -175,6 +178,7 @@ FreeState FreeMotion::at(double t) const {
 
 Motion free_motion(const Eigenfrequency& alpha, const MotionStart& start, std::span<const double> times,
                    double tolerance, const std::atomic<bool>* cancel) {
+  const DefaultFloatingPoint environment;
   require(tolerance > 0.0, "tolerance", tolerance, "> 0");
   for (const double t : times) require(t >= 0.0 && std::isfinite(t), "t", t, "finite and >= 0");
   const FreeMotion motion(alpha, start.angle, start.velocity);

@@ -9,6 +9,7 @@
 #include "free_pendulum/lindstedt.hpp"
 #include "free_pendulum/rational_series.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -71,6 +72,7 @@ double estimated_radius(const FrequencySeries& series) {
 }  // namespace
 
 FrequencySeries frequency_series(const std::vector<double>& potential, int order, SeriesMethod method) {
+  const DefaultFloatingPoint environment;
   const std::size_t size = size_of(order);
   for (const double c : potential)
     require(std::isfinite(c), "coefficient of the potential", c, "a finite number");
@@ -89,6 +91,7 @@ FrequencySeries frequency_series(const std::vector<double>& potential, int order
 }
 
 FrequencySeries pendulum_frequency_series(int order, SeriesMethod method) {
+  const DefaultFloatingPoint environment;
   Series potential(size_of(order) + 2);  // 1 - cos(phi)
   Exact term = -1;
   for (std::size_t n = 2; n < potential.size(); n += 2) {
@@ -101,6 +104,7 @@ FrequencySeries pendulum_frequency_series(int order, SeriesMethod method) {
 }
 
 std::vector<Rational> pendulum_period_series(int order) {
+  const DefaultFloatingPoint environment;
   Series modulus_squared(size_of(order));  // sin^2(A/2) = (1 - cos A)/2
   Exact term = -1;
   term /= 2;
@@ -117,6 +121,7 @@ std::vector<Rational> pendulum_period_series(int order) {
 }
 
 SeriesValue evaluate(const std::vector<Rational>& coefficients, double radius, double amplitude) {
+  const DefaultFloatingPoint environment;
   require(radius > 0.0, "radius of convergence", radius, "a positive number");
   require(amplitude >= 0.0, "amplitude", amplitude, "A >= 0");
   const double q = radius == kInfinity ? 0.0 : amplitude / radius;

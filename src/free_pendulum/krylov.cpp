@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/free_pendulum/elliptic.hpp"
 
 namespace strutt {
@@ -25,6 +26,7 @@ void require_in_range(KrylovVariant variant, double amplitude) {
 double krylov_limit(KrylovVariant variant) { return variant == KrylovVariant::frequency ? 4.0 : kSqrt8; }
 
 double krylov_frequency_ratio(KrylovVariant variant, double amplitude) {
+  const DefaultFloatingPoint environment;
   require_in_range(variant, amplitude);
   // 1 - mu^2/16 as a product: no cancellation at the limit.
   if (variant == KrylovVariant::frequency) return (1.0 - amplitude / 4.0) * (1.0 + amplitude / 4.0);
@@ -32,24 +34,31 @@ double krylov_frequency_ratio(KrylovVariant variant, double amplitude) {
 }
 
 double krylov_period_ratio(KrylovVariant variant, double amplitude) {
+  const DefaultFloatingPoint environment;
   return 1.0 / krylov_frequency_ratio(variant, amplitude);
 }
 
 KrylovMotion::KrylovMotion(KrylovVariant variant, double alpha, double amplitude) : amplitude_(amplitude) {
+  const DefaultFloatingPoint environment;
   require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "a positive number");
   const double ratio = krylov_frequency_ratio(variant, amplitude);
   frequency_ = alpha * ratio;
   third_harmonic_ = amplitude * amplitude * amplitude / (192.0 * ratio * ratio);
 }
 
-double KrylovMotion::period() const { return 2.0 * std::numbers::pi / frequency_; }
+double KrylovMotion::period() const {
+  const DefaultFloatingPoint environment;
+  return 2.0 * std::numbers::pi / frequency_;
+}
 
 double KrylovMotion::angle(double time) const {
+  const DefaultFloatingPoint environment;
   const double phase = frequency_ * time;
   return amplitude_ * std::cos(phase) + third_harmonic_ * (std::cos(phase) - std::cos(3.0 * phase));
 }
 
 double KrylovMotion::velocity(double time) const {
+  const DefaultFloatingPoint environment;
   const double phase = frequency_ * time;
   return -frequency_ *
          (amplitude_ * std::sin(phase) + third_harmonic_ * (std::sin(phase) - 3.0 * std::sin(3.0 * phase)));
@@ -58,6 +67,7 @@ double KrylovMotion::velocity(double time) const {
 double cubic_separatrix() { return kSqrt6; }
 
 double cubic_period_ratio(double amplitude) {
+  const DefaultFloatingPoint environment;
   // The double nearest to sqrt(6) is below it.
   require(amplitude >= 0.0 && amplitude <= kSqrt6, "amplitude", amplitude, "0 <= A < sqrt(6)");
   const double gap = (kSqrt6 - amplitude) + kSqrt6Low;
@@ -67,6 +77,7 @@ double cubic_period_ratio(double amplitude) {
 }
 
 double linear_amplitude(double alpha, double angle, double velocity) {
+  const DefaultFloatingPoint environment;
   require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "a positive number");
   require(std::isfinite(angle), "angle", angle, "a finite number");
   require(std::isfinite(velocity), "velocity", velocity, "a finite number");

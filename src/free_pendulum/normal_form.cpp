@@ -9,6 +9,7 @@
 
 #include "free_pendulum/bivariate_polynomial.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -141,6 +142,7 @@ void validate(const PlanarCoefficients& system) {
 }  // namespace
 
 NormalForm normal_form(const PlanarCoefficients& system) {
+  const DefaultFloatingPoint environment;
   validate(system);
   const Units units = natural_units(system);
   const PlanarCoefficients natural = scaled(system, units);
@@ -166,9 +168,13 @@ NormalForm normal_form(const PlanarCoefficients& system) {
   return form;
 }
 
-NormalForm normal_form(const PlanarSystem& system) { return normal_form(jordan_form(system).system); }
+NormalForm normal_form(const PlanarSystem& system) {
+  const DefaultFloatingPoint environment;
+  return normal_form(jordan_form(system).system);
+}
 
 double normal_form_period(const NormalForm& form, double r) {
+  const DefaultFloatingPoint environment;
   require(r >= 0.0, "amplitude", r, "r >= 0");
   const double frequency = std::fma(form.beta * r, r, form.alpha);
   return frequency > 0.0 ? 2.0 * std::numbers::pi / frequency : std::numeric_limits<double>::infinity();

@@ -9,6 +9,7 @@
 #include "free_pendulum/agm.hpp"
 #include "free_pendulum/period_table.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -84,16 +85,19 @@ std::string_view to_string(PeriodMethod method) {
 }
 
 Period period_of_amplitude(double amplitude, const Eigenfrequency& alpha) {
+  const DefaultFloatingPoint environment;
   check_amplitude(amplitude);
   return period_of(period_ratio(amplitude), kTableError, alpha);
 }
 
 Period period_of_from_top(double from_top, const Eigenfrequency& alpha) {
+  const DefaultFloatingPoint environment;
   require(from_top >= 0.0 && from_top <= kPi.hi, "from_top", from_top, "from 0 to pi");
   return period_of(period_ratio_from_top(from_top), kTableError, alpha);
 }
 
 Period period_of_excess(double separatrix_excess, const Eigenfrequency& alpha) {
+  const DefaultFloatingPoint environment;
   const double e = separatrix_excess;
   require(e >= -4.0 && std::isfinite(e), "separatrix_excess", e, "finite and >= -4");
   if (e == 0.0) return period_of(std::numeric_limits<double>::infinity(), 0.0, alpha);
@@ -103,6 +107,7 @@ Period period_of_excess(double separatrix_excess, const Eigenfrequency& alpha) {
 }
 
 BoundedNumber period_ratio_slope_magnitude(double separatrix_excess) {
+  const DefaultFloatingPoint environment;
   const double e = separatrix_excess;
   require(e >= -4.0 && e != 0.0 && std::isfinite(e), "separatrix_excess", e, "finite, >= -4 and not 0");
   const DoubleDouble top = sqrt(DoubleDouble(std::abs(e)));
@@ -119,6 +124,7 @@ BoundedNumber period_ratio_slope_magnitude(double separatrix_excess) {
 }
 
 LibrationOfPeriod libration_of_period_ratio(double ratio) {
+  const DefaultFloatingPoint environment;
   constexpr double kLongest = 440.0;  // from_top = 4e-300
   require(ratio >= 1.0 && ratio <= kLongest, "ratio", ratio, "from 1 to 440");
   constexpr double kStraight = 1.5;
@@ -146,6 +152,7 @@ BoundedNumber short_flight(double angle, DoubleDouble bottom, const Eigenfrequen
 }  // namespace
 
 BoundedNumber libration_time_of_flight(double amplitude, double angle, const Eigenfrequency& alpha) {
+  const DefaultFloatingPoint environment;
   check_amplitude(amplitude);
   require(angle >= 0.0 && angle <= amplitude, "angle", angle, "from 0 to the amplitude");
   alpha.validate();
@@ -166,6 +173,7 @@ BoundedNumber libration_time_of_flight(double amplitude, double angle, const Eig
 }
 
 BoundedNumber rotation_time_of_flight(double separatrix_excess, double angle, const Eigenfrequency& alpha) {
+  const DefaultFloatingPoint environment;
   const double e = separatrix_excess;
   constexpr double kFurthest = 1e9;
   require(e > 0.0 && std::isfinite(e), "separatrix_excess", e, "finite and > 0");

@@ -5,6 +5,7 @@
 #include "base/dispatch.hpp"
 #include "free_pendulum/period_table.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/free_pendulum/period.hpp"
 
 namespace strutt {
@@ -92,15 +93,23 @@ double ratio_of_amplitude(double amplitude) {
 }  // namespace
 
 void period_ratios(std::span<const double> amplitude, std::span<double> ratio) {
+  const DefaultFloatingPoint environment;
   evaluate<FromAmplitude>(amplitude, ratio, ratio_of_amplitude);
 }
 
 void period_ratios_from_top(std::span<const double> from_top, std::span<double> ratio) {
+  const DefaultFloatingPoint environment;
   evaluate<FromTop>(from_top, ratio, period_ratio_at);
 }
 
-double period_ratio(double amplitude) { return ratio_of_amplitude(amplitude); }
+double period_ratio(double amplitude) {
+  const DefaultFloatingPoint environment;
+  return ratio_of_amplitude(amplitude);
+}
 
-double period_ratio_from_top(double from_top) { return period_ratio_at(from_top); }
+double period_ratio_from_top(double from_top) {
+  const DefaultFloatingPoint environment;
+  return period_ratio_at(from_top);
+}
 
 }  // namespace strutt

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "free_pendulum/agm.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/free_pendulum/frequency_series.hpp"
 #include "strutt/free_pendulum/krylov.hpp"
 
@@ -156,10 +157,8 @@ double crossing(PeriodMethod formula, double tolerance, double sign, double low,
   const double below = excess(from), above = excess(to);
   if (below >= 0.0) return low;
   if (above <= 0.0) return high;
-  std::uintmax_t steps = 200;
   const boost::math::tools::eps_tolerance<double> done(51);
-  const auto bracket = boost::math::tools::toms748_solve(excess, from, to, below, above, done, steps);
-  double amplitude = amplitude_of(bracket.first);
+  double amplitude = amplitude_of(bracketed_zero(excess, from, to, below, above, done, 200).low);
   while (sign * error_at(formula, amplitude) > tolerance) amplitude = std::nextafter(amplitude, 0.0);
   return amplitude;
 }
@@ -178,18 +177,21 @@ Peak peak_of_31() {
 }  // namespace
 
 double formula_ratio(PeriodMethod formula, double amplitude) {
+  const DefaultFloatingPoint environment;
   check_formula(formula);
   require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
   return has_meaning(formula, amplitude) ? ratio_of(formula, amplitude) : kNaN;
 }
 
 FormulaError formula_of_amplitude(PeriodMethod formula, double amplitude) {
+  const DefaultFloatingPoint environment;
   check_formula(formula);
   require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
   return formula_of(formula, from_amplitude(amplitude));
 }
 
 FormulaError formula_of_from_top(PeriodMethod formula, double from_top) {
+  const DefaultFloatingPoint environment;
   check_formula(formula);
   require(from_top >= 0.0 && from_top <= kPi.hi, "from_top", from_top, "from 0 to pi");
   if (from_top == 0.0) return {kNaN, kNaN};
@@ -197,6 +199,7 @@ FormulaError formula_of_from_top(PeriodMethod formula, double from_top) {
 }
 
 FormulaError formula_of_excess(PeriodMethod formula, double separatrix_excess) {
+  const DefaultFloatingPoint environment;
   check_formula(formula);
   const double e = separatrix_excess;
   require(e >= -4.0 && std::isfinite(e), "separatrix_excess", e, "finite and >= -4");
@@ -205,6 +208,7 @@ FormulaError formula_of_excess(PeriodMethod formula, double separatrix_excess) {
 }
 
 double largest_amplitude(PeriodMethod formula, double tolerance) {
+  const DefaultFloatingPoint environment;
   check_formula(formula);
   check_tolerance(tolerance);
   if (formula == PeriodMethod::krylov_squared) {
@@ -219,6 +223,7 @@ double largest_amplitude(PeriodMethod formula, double tolerance) {
 }
 
 CheapestPeriod::CheapestPeriod(double tolerance) {
+  const DefaultFloatingPoint environment;
   check_tolerance(tolerance);
   for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
     reach_[i] = tolerance > kFormulaRounding ? largest_amplitude(kPeriodFormulas[i], tolerance - kFormulaRounding) : -1.0;
@@ -232,6 +237,7 @@ PeriodMethod CheapestPeriod::method(double amplitude) const {
 }
 
 double CheapestPeriod::ratio(double amplitude) const {
+  const DefaultFloatingPoint environment;
   require(amplitude >= 0.0 && amplitude <= kPi.hi, "amplitude", amplitude, "from 0 to 3.141592653589793");
   const PeriodMethod chosen = method(amplitude);
   return chosen == PeriodMethod::elliptic ? period_ratio(amplitude) : ratio_of(chosen, amplitude);
@@ -251,6 +257,7 @@ Period period_by(PeriodMethod method, const Libration& orbit, const Period& exac
 }  // namespace
 
 Period CheapestPeriod::of_amplitude(double amplitude, const Eigenfrequency& alpha) const {
+  const DefaultFloatingPoint environment;
   const Period exact = period_of_amplitude(amplitude, alpha);
   const PeriodMethod chosen = method(amplitude);
   return chosen == PeriodMethod::elliptic ? exact
@@ -258,6 +265,7 @@ Period CheapestPeriod::of_amplitude(double amplitude, const Eigenfrequency& alph
 }
 
 Period CheapestPeriod::of_from_top(double from_top, const Eigenfrequency& alpha) const {
+  const DefaultFloatingPoint environment;
   const Period exact = period_of_from_top(from_top, alpha);
   if (exact.method == PeriodMethod::separatrix) return exact;
   const Libration orbit = from_top_angle(from_top);
@@ -265,6 +273,7 @@ Period CheapestPeriod::of_from_top(double from_top, const Eigenfrequency& alpha)
 }
 
 Period CheapestPeriod::of_excess(double separatrix_excess, const Eigenfrequency& alpha) const {
+  const DefaultFloatingPoint environment;
   const Period exact = period_of_excess(separatrix_excess, alpha);
   if (separatrix_excess >= 0.0) return exact;
   const Libration orbit = from_excess(separatrix_excess);

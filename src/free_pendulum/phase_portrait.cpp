@@ -6,6 +6,7 @@
 
 #include "free_pendulum/arc_length.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -190,6 +191,7 @@ void PortraitOptions::validate() const {
 }
 
 std::vector<PhaseCurve> phase_portrait(const PortraitOptions& options) {
+  const DefaultFloatingPoint environment;
   options.validate();
   std::vector<LibrationCurve> librations;
   std::vector<double> rotations;

@@ -5,6 +5,7 @@
 
 #include "free_pendulum/bivariate_polynomial.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -33,6 +34,7 @@ NonlinearTerms terms_of(const Jet& f) {
 }  // namespace
 
 JordanForm jordan_form(const PlanarSystem& system) {
+  const DefaultFloatingPoint environment;
   const auto& a = system.linear;
   require(a.allFinite(), "entry of A", a(0, 0), "a finite number");
   require_finite(system.f1);
@@ -59,6 +61,7 @@ JordanForm jordan_form(const PlanarSystem& system) {
 }
 
 PlanarSystem taylor_expansion(const PlanarField& field, const Eigen::Vector2d& equilibrium) {
+  const DefaultFloatingPoint environment;
   const JetPair f = field(Jet::first_variable(equilibrium(0)), Jet::second_variable(equilibrium(1)));
   PlanarSystem system{.linear = Eigen::Matrix2d{{f[0].coefficient(1, 0), f[0].coefficient(0, 1)},
                                                 {f[1].coefficient(1, 0), f[1].coefficient(0, 1)}},

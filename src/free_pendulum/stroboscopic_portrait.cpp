@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 #include "strutt/base/parallel.hpp"
 #include "strutt/free_pendulum/energy.hpp"
 
@@ -108,6 +109,7 @@ void StroboscopicOptions::validate() const {
 StroboscopicPortrait stroboscopic_portrait(const PhysicalPendulum& pendulum, const Excitation* support,
                                            const Excitation* moment, std::span<const MotionStart> starts,
                                            const StroboscopicOptions& options) {
+  const DefaultFloatingPoint environment;
   options.validate();
   pendulum.validate();
   StroboscopicPortrait portrait;
@@ -137,6 +139,7 @@ StroboscopicPortrait stroboscopic_portrait(const PhysicalPendulum& pendulum, con
 }
 
 std::vector<MotionStart> portrait_starts(double alpha, int cells, int count) {
+  const DefaultFloatingPoint environment;
   require(alpha > 0.0 && std::isfinite(alpha), "alpha", alpha, "finite and > 0");
   require(cells >= 1 && cells <= 1000, "cells", cells, "between 1 and 1000");
   require(count >= 1, "count", count, "at least 1");

@@ -1,11 +1,12 @@
 #include "integrate/events.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include "base/bracketed_zero.hpp"
 
 namespace strutt::detail {
 namespace {
@@ -44,14 +45,13 @@ double zero(const Function& rises, const Bracket& bracket, double step) {
   const auto close = [step](double a, double b) {
     return std::abs(b - a) <= 2.0 * kEpsilon * std::max(std::abs(b), std::abs(step));
   };
-  std::uintmax_t evaluations = 60;
+  constexpr int kMostEvaluations = 60;
   // Ascending ends, as toms748 wants them.
   const bool forwards = bracket.low < bracket.high;
-  const auto [a, b] = boost::math::tools::toms748_solve(
-      rises, forwards ? bracket.low : bracket.high, forwards ? bracket.high : bracket.low,
-      forwards ? bracket.at_low : bracket.at_high, forwards ? bracket.at_high : bracket.at_low, close,
-      evaluations);
-  return 0.5 * (a + b);
+  return bracketed_zero(rises, forwards ? bracket.low : bracket.high, forwards ? bracket.high : bracket.low,
+                        forwards ? bracket.at_low : bracket.at_high,
+                        forwards ? bracket.at_high : bracket.at_low, close, kMostEvaluations)
+      .middle();
 }
 
 }  // namespace

@@ -176,6 +176,33 @@ TEST_CASE("the figure of a chart has the edges of its tongues, or does without",
                          !Contains("edge of stability") && !Contains("tongue edges"));
 }
 
+TEST_CASE("tongues that every cell of a chart misses are drawn on its figure",
+          "[apps][tongues][figure][extreme][N52]") {
+  const ScratchDirectory directory;
+  const auto check = [&](const std::string& scene, const Words& axes, const std::string& key) {
+    const auto path = (directory.path() / "scene.toml").string();
+    const auto figure = (directory.path() / "figure.svg").string();
+    std::ofstream(path) << scene;
+    Words words{"chart", path, "--layers", "verdict", "--figure", figure};
+    words.insert(words.end(), axes.begin(), axes.end());
+    const Result result = strutt(words);
+    CHECK(result.code == 0);
+    const auto rows = csv_rows(result.out);
+    REQUIRE(rows.size() > 30);
+    CHECK(std::all_of(rows.begin() + 1, rows.end(), [](const Words& row) { return row[2] == "stable"; }));
+    std::ifstream file(figure);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    CHECK_THAT(text, Catch::Matchers::Contains(key));
+  };
+  check("[mathieu]\n", {"--x", "mathieu.delta=3.6:5.9:12", "--y", "mathieu.epsilon=0.05:0.4:7"},
+        "tongue edges (min. stroke)");
+  check(
+      "[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1.3, -0.3], [-0.3, 2.3]], "
+      "harmonics = [{ order = 1, cos = [[0.4, 0], [0, 0]] }] }\n",
+      {"--x", "linear.period=2.2:2.5:6", "--y", "linear.stiffness.harmonics.1.cos.0.0=0.01:0.05:5"},
+      "edge: complex");
+}
+
 TEST_CASE("a scene that has no tongues at all is a mistake of the file", "[apps][tongues]") {
   const Command command("[hill]\nperiod = 1\nharmonics = [{ order = 1, cos = 1e9 }]\n");
   CHECK(command.run("hill.mean=0:1").code == 3);

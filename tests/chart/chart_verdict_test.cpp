@@ -1,6 +1,7 @@
 // Verdicts of a whole chart against the index of the tongue by Sturm counts.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "strutt/chart/stability_chart.hpp"
 #include "support/hill_edges.hpp"
@@ -35,6 +36,39 @@ TEST_CASE("no wrong verdict among a million cells of a chart by surrogate",
   CHECK(cells == 1'001'000);
   CHECK(summary.interpolated >= cells * 99 / 100);
   CHECK(decided >= cells - 10);
+}
+
+TEST_CASE("cells beside an edge are decided at a coarse tolerance, by surrogate and point by point",
+          "[chart][stability_chart][surrogate][extreme][N18]") {
+  const auto method = GENERATE(Method::surrogate, Method::propagator);
+  const HillEdges edges(0.5, 3);
+  Scene scene;
+  scene.mathieu = MathieuTable{};
+  ChartRequest request{.x = {"mathieu.delta", edges[2].value - 1e-10, edges[2].value + 1e-10, 200},
+                       .y = {"mathieu.epsilon", 0.5, 0.75, 251},
+                       .layers = {Layer::verdict},
+                       .tolerance = 1e-5,
+                       .method = method,
+                       .threads = 2};
+  std::vector<double> first_row;
+  const auto summary = compute_chart(scene, request, [&](const ChartStrip& strip) {
+    if (strip.first_row == 0) first_row.assign(strip.values[0].begin(), strip.values[0].begin() + 200);
+  });
+  CHECK(summary.unresolved == 0);
+  CHECK(summary.outcomes[static_cast<std::size_t>(Outcome::converged)] == 50'200);
+  if (method == Method::surrogate) CHECK(summary.interpolated == 50'000);  // the first row is open
+  for (std::size_t i = 0; i < 200; ++i)
+    CHECK(first_row[i] == static_cast<double>(edges.at(request.x.value(i))));
+  if (method == Method::surrogate) return;
+  // a chart without verdicts costs less: the first row is computed once, not twice
+  request.layers = {Layer::margin};
+  const auto margins = compute_chart(scene, request, [](const ChartStrip&) {});
+  request.y = {"mathieu.epsilon", 0.501, 0.75, 250};
+  const auto others = compute_chart(scene, request, [](const ChartStrip&) {});
+  request.layers = {Layer::verdict};
+  CHECK(compute_chart(scene, request, [](const ChartStrip&) {}).right_hand_sides == others.right_hand_sides);
+  CHECK(margins.right_hand_sides < summary.right_hand_sides);
+  CHECK(summary.right_hand_sides < 2 * margins.right_hand_sides);
 }
 
 }  // namespace strutt::test::chart_verdict_test

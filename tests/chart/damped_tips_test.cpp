@@ -9,7 +9,7 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/scenes.hpp"
 
-namespace strutt::test {
+namespace strutt::test::damped_tips_test {
 namespace {
 
 Stability stability_at(Scene scene, const std::string& path, double value) {
@@ -195,4 +195,4 @@ TEST_CASE("lines of any length may end on an edge or a tip", "[chart][tongues]")
   }
 }
 
-}  // namespace strutt::test
+}  // namespace strutt::test::damped_tips_test

@@ -1,7 +1,6 @@
 // What the host program does to the floating-point unit changes no result.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <vector>
 
@@ -9,14 +8,12 @@
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
 #include "strutt/floquet/tongue_width.hpp"
-#include "support/host_environment.hpp"
+#include "support/any_environment.hpp"
 #include "support/models.hpp"
 
 namespace strutt::test::environment_test {
 
 namespace {
-
-using Numbers = std::vector<double>;
 
 void add(Numbers& numbers, const Stability& s) {
   numbers.insert(numbers.end(), {static_cast<double>(s.verdict), s.margin, s.margin_error, s.growth,
@@ -67,31 +64,6 @@ Numbers of_chart(Method method) {
     for (const auto& layer : strip.values) numbers.insert(numbers.end(), layer.begin(), layer.end());
   });
   return numbers;
-}
-
-bool same_bits(const Numbers& a, const Numbers& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
-/// Numbers with and without a host that has changed the environment.
-template <typename Compute>
-void check_same(Compute compute) {
-  const Numbers expected = compute();
-  REQUIRE(expected.size() > 20);
-  for (const auto kind : HostEnvironment::kAll) {
-    Numbers found;
-    bool kept = false;
-    std::string name;
-    {
-      const HostEnvironment host(kind);
-      name = host.name();
-      found = compute();
-      kept = HostEnvironment::is_now(kind);
-    }
-    INFO(name);
-    CHECK(kept);
-    CHECK(same_bits(found, expected));
-  }
 }
 
 }  // namespace

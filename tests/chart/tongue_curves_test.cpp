@@ -115,6 +115,44 @@ TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues]
   }
 }
 
+TEST_CASE("without damping a tongue begins with a tip where nothing is excited", "[chart][tongues]") {
+  const auto check = [](const Scene& scene, const TongueLine& along, const TongueLine& over, double rest,
+                        const auto& resonance) {
+    const auto curves = tongue_curves(scene, along, over);
+    for (int n = 1; n <= 3; ++n) {
+      CAPTURE(over.parameter, over.from, n);
+      REQUIRE(std::ranges::count(curves, n, &TongueCurve::order) == 1);  // down one edge and up the other
+      const auto& points = std::ranges::find(curves, n, &TongueCurve::order)->points;
+      const auto tips = tips_of({{n, points}});
+      REQUIRE(tips.size() == 1);
+      CHECK(tips[0].over == rest);
+      CHECK(std::abs(tips[0].along - resonance(n)) <= 1e-15 * std::max(1.0, resonance(n)));
+      CHECK(tips[0].error <= 1e-14);
+      CHECK(tips[0].outcome == Outcome::converged);
+      CHECK(points.front().kind != points.back().kind);
+      CHECK(std::ranges::count(points, rest, &CurvePoint::over) == 1);
+    }
+  };
+  const auto square_of_half = [](int n) { return 0.25 * n * n; };
+  const TongueLine delta{"mathieu.delta", -1.0, 2.9};
+  check(mathieu_scene(0.0), delta, {"mathieu.epsilon", 0.0, 0.5}, 0.0, square_of_half);
+  check(mathieu_scene(0.0), delta, {"mathieu.epsilon", -0.5, 0.0}, 0.0, square_of_half);
+  Scene meissner;
+  meissner.hill = HillTable{.waveform = Waveform::square, .period = 2.0 * pi};
+  check(meissner, {"hill.mean", -1.0, 2.9}, {"hill.amplitude", 0.0, 0.5}, 0.0, square_of_half);
+  Scene rod;
+  rod.pendulum = PendulumTable{.length = 1.0};
+  rod.support = SupportTable{.frequency = 12.0};
+  const double alpha = std::sqrt(1.5 * 9.81);
+  check(rod, {"support.frequency", 2.3, 9.0}, {"support.amplitude", 0.0, 0.05}, 0.0,
+        [=](int n) { return 2.0 * alpha / n; });
+  // damping closes the tongue before, and without a line at rest there is no tip
+  for (const CurvePoint& tip :
+       tips_of(tongue_curves(mathieu_scene(0.02), delta, {"mathieu.epsilon", 0.0, 0.5})))
+    CHECK(tip.over > 0.0);
+  CHECK(tips_of(tongue_curves(mathieu_scene(0.0), delta, {"mathieu.epsilon", -0.25, 0.5})).empty());
+}
+
 TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongues][slow]") {
   // the upper edge of tongue 2, a_2(2 epsilon)/4, has a maximum
   const auto curves =

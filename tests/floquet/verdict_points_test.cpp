@@ -45,10 +45,10 @@ class RandomPoints {
 };
 
 std::vector<Stability> verdicts(MonodromyEngine& engine, const std::vector<double>& delta, double epsilon,
-                                const MonodromyOptions& options) {
+                                const MonodromyOptions& options, bool wanted = true) {
   std::vector<LinearModel> models;
   for (const double d : delta) models.push_back(mathieu_delta_epsilon(d, epsilon));
-  return analyse(engine, models, options, {.winding = false, .matrix = false});
+  return analyse(engine, models, options, {.verdict = wanted, .winding = false, .matrix = false});
 }
 
 struct Tally {
@@ -164,7 +164,7 @@ TEST_CASE("strong excitation: no wrong verdict where solutions grow and shrink b
   }
   CHECK(tally.wrong == 0);
   CHECK(tally.odd == 0);
-  check_within("N15 share of points next to an edge left unresolved", tally.open_share(), 0.5);
+  check_within("N15 share of points next to an edge left unresolved", tally.open_share(), 0.3);
   // rounding in the middle of the period counts more than a change of delta and epsilon as a whole
   check_within("N15 (margin_error - 1e-12)/(2^-52 conditioning of the factors) up to epsilon = 1000", largest,
                1e5);
@@ -176,19 +176,25 @@ TEST_CASE("a tolerance that is too loose leaves points open and never turns one"
   const auto method = GENERATE(Method::propagator, Method::arkode, Method::cvode);
   MonodromyEngine engine;
   RandomPoints points(region);
-  Tally tally;
+  Tally tally, wanted;
   for (int column = 0; column < 20; ++column) {
     const double epsilon = points.epsilon();
     const HillEdges edges(epsilon, region.last);
     std::vector<double> delta(20);
     std::generate(delta.begin(), delta.end(), [&] { return points.delta(edges, epsilon); });
-    const auto found = verdicts(engine, delta, epsilon, {.tolerance = 1e-2, .method = method});
-    for (std::size_t k = 0; k < delta.size(); ++k) tally.add(found[k], edges.at(delta[k]));
+    const MonodromyOptions options{.tolerance = 1e-2, .method = method};
+    const auto found = verdicts(engine, delta, epsilon, options, false),
+               again = verdicts(engine, delta, epsilon, options);
+    for (std::size_t k = 0; k < delta.size(); ++k) {
+      tally.add(found[k], edges.at(delta[k]));
+      wanted.add(again[k], edges.at(delta[k]));
+    }
   }
-  CHECK(tally.wrong == 0);
-  CHECK(tally.odd == 0);
+  CHECK(tally.wrong + wanted.wrong == 0);
+  CHECK(tally.odd + wanted.odd == 0);
   CHECK(tally.decided >= tally.points / 5);
-  CHECK(tally.decided <= tally.points * 9 / 10);  // the tolerance was too loose for some
+  CHECK(tally.decided <= tally.points * 3 / 5);    // the tolerance was too loose for the others
+  CHECK(wanted.decided >= wanted.points * 4 / 5);  // which are looked at once more where a verdict is wanted
 }
 
 TEST_CASE("no wrong verdict beside the edges of coefficients without symmetry",

@@ -17,7 +17,8 @@ struct CurvePoint {
   Kind kind = Kind::lower;
   double along = 0.0;  ///< value of the first parameter
   double over = 0.0;   ///< value of the second
-  /// Of `along`, as TongueEdge::error; at a tip that of `over`, relative to max(1, |over|).
+  /// Of `along`, as TongueEdge::error; at a tip that of `over`, relative to max(1, |over|), but where nothing
+  /// is excited, which is known exactly, that of `along`.
   double error = 0.0;
   Mechanism mechanism = Mechanism::plus_one;
   Method method = Method::fourier;
@@ -55,7 +56,8 @@ struct CurveOptions {
 /// there lies within `chord` of the straight line between its neighbours. Where edges appear between two
 /// lines in pairs the curve turns back: as the distance of the pair grows with the square root, its square is
 /// followed to the tip by the secant method. A closed curve, or a tip and back, between two of the first
-/// lines may be missed.
+/// lines may be missed. Without damping, and without excitation at over.from or over.to, both edges of a
+/// tongue meet there: that is a tip, too.
 ///
 /// Systems: pairs of edges closer than 1e-6 of the line, or than `resolution`, are left out. Without damping,
 /// and without excitation at over.from, tongues begin there with a tip at T (w_i + w_j) = 2 pi k, w_i the

@@ -22,6 +22,8 @@ struct MonodromyOptions {
   double tolerance = 1e-9;             ///< largest `error` wanted, 1e-13 <= tolerance <= 1e-2
   Method method = Method::automatic;   ///< automatic, exact (piecewise-constant Hill equations), propagator, arkode, cvode
   bool estimate_error = true;          ///< false: no second run; `error` then holds the rounding part only
+  /// As small an error as the method can, whatever the tolerance; `outcome` still judges by that.
+  bool sharpest = false;
   double max_seconds = std::numeric_limits<double>::infinity();  ///< per integration
   const std::atomic<bool>* cancel = nullptr;
 
@@ -50,6 +52,7 @@ struct BasicMonodromy {
   double error = std::numeric_limits<double>::infinity();
   /// Largest |det - 1| of the integrated propagators of y, each divided by its squared norm (numerical extremes N3).
   double determinant_defect = 0.0;
+  bool sharpest = false;              ///< MonodromyOptions::sharpest would not make it more accurate
   Method method = Method::automatic;  ///< the one used
   Outcome outcome = Outcome::failed;
   IntegrationCost cost;               ///< of the runs that gave the value

@@ -30,8 +30,9 @@ struct Stability {
   IntegrationCost estimate_cost;  ///< of those that gave the error
 };
 
-/// Which parts to compute beyond verdict, margin, growth and error.
+/// Which parts to compute beyond margin, growth and error, and the verdict that follows from these.
 struct StabilityParts {
+  bool verdict = true;  ///< a verdict is wanted: where it is open, `analyse` looks again
   bool winding = true;
   bool matrix = true;  ///< matrix, discriminant, log_scale, multipliers
 };
@@ -40,7 +41,12 @@ struct StabilityParts {
 Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, const StabilityParts& parts = {});
 Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts = {});
 
-/// compute + assess. A system with one degree of freedom and constant c >= 0 is treated as the Hill equation it is.
+/// compute + assess. A system with one degree of freedom and constant c >= 0 is treated as the Hill equation
+/// it is. Where the verdict is open at the tolerance asked for, and the method can be more accurate, the
+/// point is computed once more as accurately as that method can (MonodromyOptions::sharpest), and the result
+/// with the smaller margin_error counts, at the cost of both: only then is it `unresolved`. All other points
+/// are as they would be without. Without StabilityParts::verdict, or estimate_error, nothing is computed
+/// again.
 Stability analyse(MonodromyEngine& engine, const LinearModel& model, const MonodromyOptions& options = {},
                   const StabilityParts& parts = {});
 
