@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/constants.hpp"
+#include "chart/surrogate_scope.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
@@ -14,8 +15,6 @@ namespace strutt {
 namespace {
 
 constexpr int kBlock = 32;  // orders computed together
-
-bool is_square(const PeriodicFunction& v) { return v.harmonics().empty() && !v.is_constant(); }
 
 bool same_function(const PeriodicFunction& a, const PeriodicFunction& b) {
   if (is_square(a) || is_square(b)) return is_square(a) && is_square(b) && a.deviation() == b.deviation();

@@ -85,7 +85,7 @@ inline constexpr double kLadderStep = 0.01;
 
 /// How `result` ended, now that nothing tighter is tried.
 template <typename Matrix>
-void judge(BasicMonodromy<Matrix>& result, double tolerance) {
+void settle(BasicMonodromy<Matrix>& result, double tolerance) {
   if (result.outcome == Outcome::converged && !(result.error <= tolerance)) {
     result.outcome = std::isfinite(result.error) ? Outcome::tolerance_not_reached : Outcome::non_finite;
   }
@@ -107,7 +107,7 @@ auto tighten(const ToleranceLadder& ladder, double tolerance, const Attempt& att
     result.estimate_cost += spent_estimating;
   }
   result.sharpest = !(local > ladder.lowest);
-  judge(result, tolerance);
+  settle(result, tolerance);
   return result;
 }
 

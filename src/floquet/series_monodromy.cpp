@@ -65,7 +65,7 @@ std::vector<HillMonodromy> series_monodromies(SeriesPropagators& tables,
   }
   for (const std::size_t i : wanted) results[i].outcome = Outcome::cancelled;
   for (auto& result : results) {
-    judge(result, options.tolerance);
+    settle(result, options.tolerance);
     result.method = Method::propagator;
   }
   return results;
