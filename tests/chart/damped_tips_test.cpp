@@ -56,7 +56,7 @@ TEST_CASE("narrow damped tongues across which damping and growth change", "[char
   }
 }
 
-TEST_CASE("what is left just below closing is found wherever on the line its tip lies", "[chart][tongues]") {
+TEST_CASE("what is left just below closing is found wherever on the line its tip lies", "[chart][tongues][slow]") {
   struct Case {
     Scene scene;
     TongueLine whole;  // on which the tip is looked for
@@ -159,7 +159,7 @@ TEST_CASE("beside a tip the edges are as good as elsewhere", "[chart][tongues]")
   }
 }
 
-TEST_CASE("lines of any length may end on an edge or a tip", "[chart][tongues]") {
+TEST_CASE("lines of any length may end on an edge or a tip", "[chart][tongues][slow]") {
   const auto check = [](const Scene& scene, const std::string& path, double place) {
     for (const double length : {1e-2, 1e-6, 1e-9, 1e-11, 1e-13})
       for (const auto& [left, right] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {

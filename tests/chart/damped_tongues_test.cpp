@@ -57,7 +57,7 @@ TEST_CASE("damped edges of the first tongue against references of 40 digits", "[
   CHECK(checked == 12);
 }
 
-TEST_CASE("the verdict is certain beside each damped edge", "[chart][tongues]") {
+TEST_CASE("the verdict is certain beside each damped edge", "[chart][tongues][slow]") {
   const auto check = [](const Scene& scene, const TongueLine& line, std::size_t least) {
     const auto edges = tongues(scene, line);
     CHECK(edges.size() >= least);

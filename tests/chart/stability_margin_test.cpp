@@ -88,7 +88,7 @@ TEST_CASE("an unstable design has a negative distance to stability", "[chart][ma
   CHECK(margin.joint.distance < 0.0);
 }
 
-TEST_CASE("each edge parts verdicts, and none is between it and the design", "[chart][margin]") {
+TEST_CASE("each edge parts verdicts, and none is between it and the design", "[chart][margin][slow]") {
   for (const Scene& scene : designs()) {
     const auto margin = stability_margin(scene, stability_parameters(scene),
                                          {.tolerance = scene.linear ? 1e-10 : 1e-12, .reach = 10.0});
@@ -112,7 +112,7 @@ TEST_CASE("each edge parts verdicts, and none is between it and the design", "[c
 }
 
 TEST_CASE("the joint margin is an edge, not further than any single one, and no random change is nearer",
-          "[chart][margin]") {
+          "[chart][margin][slow]") {
   std::srand(7);
   for (const Scene& scene : designs()) {
     const auto margin = stability_margin(scene, stability_parameters(scene),
@@ -151,7 +151,7 @@ TEST_CASE("the joint margin is an edge, not further than any single one, and no 
   }
 }
 
-TEST_CASE("edges move as their sensitivities say, for every model", "[chart][margin][sensitivity]") {
+TEST_CASE("edges move as their sensitivities say, for every model", "[chart][margin][sensitivity][slow]") {
   Scene damped = coupled_scene(3.0);
   damped.linear->damping.mean = Eigen::Matrix2d{{0.05, 0.01}, {0.0, 0.1}};
   Scene hill;

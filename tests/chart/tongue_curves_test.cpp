@@ -80,7 +80,7 @@ TEST_CASE("between its points a curve is as straight as was asked for", "[chart]
   }
 }
 
-TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues]") {
+TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues][slow]") {
   const double c = 0.05;
   const auto curves =
       tongue_curves(mathieu_scene(c), {"mathieu.delta", -0.5, 5.0}, {"mathieu.epsilon", 0.0, 5.0});

@@ -147,7 +147,7 @@ TEST_CASE("no wrong verdict among a million points beside the edges and no bound
 }
 
 TEST_CASE("strong excitation: no wrong verdict where solutions grow and shrink by turns",
-          "[floquet][verdict][extreme][N15][ratchet]") {
+          "[floquet][verdict][extreme][N15][ratchet][slow]") {
   const Region region{6.0, 1000.0, 60, 3};
   MonodromyEngine engine;
   RandomPoints points(region);
