@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
@@ -39,6 +40,12 @@ double certain_distance(double place, double end, double first, const Certain& c
   for (double distance = first; distance < whole; distance *= 2.0)
     if (certain(place + std::copysign(distance, end - place))) return distance;
   return whole;
+}
+
+/// The same with steps from the rounding of both places on.
+template <typename Certain>
+double certain_distance(double place, double end, const Certain& certain) {
+  return certain_distance(place, end, kUnit * std::max(std::abs(place), std::abs(end - place)), certain);
 }
 
 }  // namespace strutt

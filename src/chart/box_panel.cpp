@@ -8,6 +8,8 @@
 namespace strutt {
 namespace {
 
+constexpr double kWidest = 1.5;  // of the 2 of the box: a wider panel needs about as many terms
+
 /// Rounding of the coefficients on the panel: that of T_k, k^2 units, and of two products.
 double rounding_of(const Eigen::MatrixXd& c) {
   double sum = 0.0;
@@ -33,7 +35,7 @@ Eigen::Index rows_needed(const Eigen::MatrixXd& c, double allowed) {
 BoxPanel panel_of(const SurrogateBox& box, double low, double high) {
   const BoxPanel whole{-1.0, 1.0, box.coefficients, std::vector<double>(box.coefficients.size(), 0.0)};
   const Eigen::Index terms = box.coefficients[0].rows();
-  if (terms < 2 || !(low < high)) return whole;
+  if (terms < 2 || !(low < high) || high - low > kWidest) return whole;
   const Eigen::MatrixXd restriction = chebyshev::restriction(static_cast<int>(terms) - 1, low, high);
   BoxPanel panel{low, high, {}, {}};
   Eigen::Index rows = 1;

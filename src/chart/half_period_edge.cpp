@@ -7,8 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
+#include "chart/certain_zero.hpp"
 
 namespace strutt {
 namespace {
@@ -33,22 +33,11 @@ std::optional<Margin> signed_distance(StabilityLine& line, double p, Block block
 /// The zero in a bracket whose ends have certain and opposite signs.
 std::optional<StabilityChange> simple_zero(StabilityLine& line, double low, double high, Block block) {
   const auto value = [&](double p) { return signed_distance(line, p, block).value_or(Margin{}); };
-  const Margin at_low = value(low), at_high = value(high);
-  const auto certain = [](const Margin& m) { return std::abs(m.value) > m.error; };
-  if (!certain(at_low) || !certain(at_high) || at_low.value * at_high.value > 0.0) return std::nullopt;
+  const auto found = certain_zero(value, low, high);
+  if (!found) return std::nullopt;
   StabilityChange zero;
-  zero.position = bracketed_zero([&](double p) { return value(p).value; }, low, high, at_low.value,
-                                 at_high.value, boost::math::tools::eps_tolerance<double>(52))
-                      .middle();
-  const auto distance_to = [&](double end, double sign) {
-    const double first = kUnit * std::max(std::abs(zero.position), std::abs(end - zero.position));
-    return certain_distance(zero.position, end, first, [&](double p) {
-      const Margin m = value(p);
-      return certain(m) && m.value * sign > 0.0;
-    });
-  };
-  zero.error = std::max(distance_to(low, at_low.value), distance_to(high, at_high.value)) +
-               kUnit * std::abs(zero.position);
+  zero.position = found->position;
+  zero.error = found->error;
   return zero;
 }
 

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "strutt/floquet/verdict.hpp"
 
@@ -87,42 +86,24 @@ std::optional<Pair> resonant_pair(const HalfTurns& turns, std::size_t i, std::si
   return Pair{i, j, k};
 }
 
-/// Between two ends with excesses of certain and opposite signs.
-std::optional<RestingResonance> resonance_of(RestingLine& line, const Pair& pair, double from, double to) {
+std::optional<CertainZero> resonance_of(RestingLine& line, const Pair& pair, double from, double to) {
+  const auto unknown = line.half_turns(from)->excess(pair.i, pair.j, pair.k).value;  // on neither side for certain
   const auto excess = [&](double p) {
     const auto turns = line.half_turns(p);
-    return turns ? turns->excess(pair.i, pair.j, pair.k) : Margin{kNaN, kNaN};
+    return turns ? turns->excess(pair.i, pair.j, pair.k) : Margin{unknown, kInfinity};
   };
-  const Margin low = excess(from), high = excess(to);
-  const auto certain = [](const Margin& m) { return std::abs(m.value) > m.error; };
-  if (!certain(low) || !certain(high) || low.value * high.value > 0.0) return std::nullopt;
-  const auto value = [&](double p) {
-    const Margin found = excess(p);
-    return std::isnan(found.value) ? low.value : found.value;
-  };
-  const double position =
-      bracketed_zero(value, from, to, low.value, high.value, boost::math::tools::eps_tolerance<double>(52))
-          .middle();
-  const auto distance_to = [&](double end, double sign) {
-    const double first = kUnit * std::max(std::abs(position), std::abs(end - position));
-    return certain_distance(position, end, first, [&](double p) {
-      const Margin found = excess(p);
-      return certain(found) && found.value * sign > 0.0;
-    });
-  };
-  return RestingResonance{position, std::max(distance_to(from, low.value), distance_to(to, high.value)) +
-                                        kUnit * std::abs(position)};
+  return certain_zero(excess, from, to);
 }
 
 }  // namespace
 
-std::optional<RestingResonance> resting_resonance(const Scene& rest, const TongueLine& along,
+std::optional<CertainZero> resting_resonance(const Scene& rest, const TongueLine& along,
                                                   Mechanism mechanism, double near, double within) {
   RestingLine line(rest, along.parameter);
   const double from = std::max(along.from, near - within), to = std::min(along.to, near + within);
   const auto middle = line.half_turns(near);
   if (!middle || !line.half_turns(from) || !line.half_turns(to)) return std::nullopt;
-  std::optional<RestingResonance> best;
+  std::optional<CertainZero> best;
   for (std::size_t i = 0; i < middle->value.size(); ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const auto pair = resonant_pair(*middle, i, j, mechanism);

@@ -118,8 +118,7 @@ class ChangeFinder {
 
   /// How far from p towards `end` the verdict is certain.
   double distance_to(double p, double end, bool unstable) {
-    const double first = kUnit * std::max(std::abs(p), std::abs(end - p));
-    return certain_distance(p, end, first, [&](double place) {
+    return certain_distance(p, end, [&](double place) {
       return unstable ? line_.at(place).unstable() : line_.at(place).stable();
     });
   }

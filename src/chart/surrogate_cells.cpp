@@ -44,8 +44,7 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
       with_verdict_(contains(request.layers, Layer::verdict)),
       with_winding_(contains(request.layers, Layer::winding)),
       parallel_{.threads = request.threads, .cancel = request.cancel},
-      surrogate_(scene, request.x, request.y, surrogate_options(request)),
-      boxes_(surrogate_.boxes()) {
+      surrogate_(scene, request.x, request.y, surrogate_options(request)) {
   workers_.resize(static_cast<std::size_t>(thread_count(parallel_)));
   if (surrogate_.kind() == SurrogateKind::period) {
     for (auto& worker : workers_) worker.matrix = std::make_unique<MatrixCell>(scene, request);
@@ -53,7 +52,7 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
   } else {
     prepare_factors(scene);
   }
-  grid_ = SurrogateGrid(boxes_, request.x, request.y);
+  grid_ = SurrogateGrid(boxes_on_grid(), request.x, request.y);
 }
 
 void SurrogateCells::prepare_factors(const Scene& scene) {
@@ -62,12 +61,16 @@ void SurrogateCells::prepare_factors(const Scene& scene) {
   }
   half_damping_ = table_of(*workers_[0].model, request_, &PointEquation::half_damping);
   kappa_square_ = table_of(*workers_[0].model, request_, &PointEquation::kappa_square);
-  if (!wants_trace_only(request_)) return;
-  boxes_ = trace_boxes(boxes_, request_.tolerance,
-                       {.least_kappa = canonical_kappa(kappa_square_.smallest()),
-                        .largest_kappa = canonical_kappa(kappa_square_.largest()),
-                        .damped = half_damping_.largest() > 0.0,
-                        .shifted = *surrogate_.even_phase() != 0.0});
+}
+
+/// Those of the surrogate, or with the discriminant alone.
+std::vector<SurrogateBox> SurrogateCells::boxes_on_grid() const {
+  if (surrogate_.kind() == SurrogateKind::period || !wants_trace_only(request_)) return surrogate_.boxes();
+  return trace_boxes(surrogate_.boxes(), request_.tolerance,
+                     {.least_kappa = canonical_kappa(kappa_square_.smallest()),
+                      .largest_kappa = canonical_kappa(kappa_square_.largest()),
+                      .damped = half_damping_.largest() > 0.0,
+                      .shifted = *surrogate_.even_phase() != 0.0});
 }
 
 bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<std::size_t>& rest) {

@@ -57,6 +57,7 @@ class SurrogateCells {
   };
 
   void prepare_factors(const Scene& scene);
+  std::vector<SurrogateBox> boxes_on_grid() const;
   static std::vector<std::size_t> rest_of(const ChartStrip& strip, const std::vector<GridPiece>& pieces,
                                           const std::vector<Count>& counts);
   Count fill_piece(const GridPiece& piece, ChartStrip& strip, Worker& worker);
@@ -78,7 +79,6 @@ class SurrogateCells {
   bool with_verdict_ = false, with_winding_ = false;
   ParallelOptions parallel_;
   Surrogate surrogate_;
-  std::vector<SurrogateBox> boxes_;  // of the surrogate, or with the discriminant alone
   SurrogateGrid grid_;
   ProductTable half_damping_, kappa_square_;
   std::optional<ReciprocalCells> reciprocal_;  // kind period, where it serves

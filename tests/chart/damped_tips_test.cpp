@@ -8,25 +8,9 @@
 #include "strutt/chart/tongues.hpp"
 #include "strutt/floquet/stability.hpp"
 #include "support/scenes.hpp"
+#include "support/tongue_edges.hpp"
 
 namespace strutt::test::damped_tips_test {
-namespace {
-
-Stability stability_at(Scene scene, const std::string& path, double value) {
-  parameter(scene, path) = value;
-  static MonodromyEngine engine;
-  return analyse(engine, linear_model(scene), {.tolerance = 1e-13}, {.winding = true, .matrix = false});
-}
-
-double absolute_error(const TongueEdge& edge) { return edge.error * std::max(1.0, std::abs(edge.position)); }
-
-std::vector<TongueEdge> of_order(const std::vector<TongueEdge>& edges, int order) {
-  std::vector<TongueEdge> result;
-  std::ranges::copy_if(edges, std::back_inserter(result), [&](const auto& e) { return e.order == order; });
-  return result;
-}
-
-}  // namespace
 
 TEST_CASE("narrow damped tongues across which damping and growth change", "[chart][tongues]") {
   // in frequency, length and gravity h/h0 changes along the line; the edges in 50 digits

@@ -8,27 +8,11 @@
 #include "strutt/floquet/stability.hpp"
 #include "support/reference.hpp"
 #include "support/scenes.hpp"
+#include "support/tongue_edges.hpp"
 
 namespace strutt::test::damped_tongues_test {
-namespace {
 
 using std::numbers::pi;
-
-Stability stability_at(Scene scene, const std::string& path, double value) {
-  parameter(scene, path) = value;
-  static MonodromyEngine engine;
-  return analyse(engine, linear_model(scene), {.tolerance = 1e-13}, {.winding = true, .matrix = false});
-}
-
-double absolute_error(const TongueEdge& edge) { return edge.error * std::max(1.0, std::abs(edge.position)); }
-
-std::vector<TongueEdge> of_order(const std::vector<TongueEdge>& edges, int order) {
-  std::vector<TongueEdge> result;
-  std::ranges::copy_if(edges, std::back_inserter(result), [&](const auto& e) { return e.order == order; });
-  return result;
-}
-
-}  // namespace
 
 TEST_CASE("damped edges of the first tongue against references of 40 digits", "[chart][tongues][reference]") {
   // the last twelve rows of the family stand in pairs, 1e-9 above an edge and 1e-6 below it; the edge they

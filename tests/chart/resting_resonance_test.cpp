@@ -43,7 +43,7 @@ struct Oscillators {
 };
 
 /// How far a resonance is from the closed form, in units of its bound.
-double share_of_bound(const RestingResonance& found, const Exact& expected) {
+double share_of_bound(const CertainZero& found, const Exact& expected) {
   return static_cast<double>(abs(Exact(found.position) - expected)) / found.error;
 }
 
