@@ -6,7 +6,7 @@
 
 namespace strutt {
 
-struct Range {
+struct Extent {
   double least, largest;
 };
 
@@ -14,7 +14,7 @@ struct Range {
 struct BlockRanges {
   std::array<double, 4> largest_factors;  ///< |u1|, |u2|, |u1'|, |u2'|, in the row's state and unit
   double least_half_trace;                ///< |u1 u2' + u1' u2|
-  Range kappa, h;
+  Extent kappa, h;
 };
 
 /// Bounds for all of these cells.

@@ -1,11 +1,11 @@
 #include "strutt/chart/closing_damping.hpp"
 
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <string>
 
 #include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
+#include "base/minimum.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/floating_point.hpp"
@@ -79,10 +79,8 @@ class DampedLine {
 };
 
 ClosingDamping wide(DampedLine& line, ClosingDamping result, double from, double to) {
-  // in shares of the width: Brent's tolerance is one of the variable
-  const auto [share, negative] = boost::math::tools::brent_find_minima(
-      [&](double x) { return -line.marginal(std::lerp(from, to, x)); }, 0.0, 1.0, 28);
-  result.position = std::lerp(from, to, share);
+  const auto [place, negative] = least_between([&](double x) { return -line.marginal(x); }, from, to, 28);
+  result.position = place;
   result.damping = -negative;
   result.error =
       line.error(result.position, result.damping) + 0x1p-50;  // and what is left of the maximum: (2^-26)^2

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 
+#include "base/minimum.hpp"
 #include "chart/chebyshev.hpp"
 #include "strutt/base/error.hpp"
 
@@ -15,7 +14,6 @@ namespace {
 
 constexpr int kDegree = 8;
 constexpr double kShortest = 1e-9;  // of the whole
-constexpr int kBrentBits = 30;
 constexpr int kMostPieces = 10'000;
 
 /// Coefficients of T_0 ... T_n, and a bound of what they leave out.
@@ -107,10 +105,8 @@ class PieceSearch {
       return sign * m.value < -m.error;
     };
     if (beyond(a) || beyond(b)) return;
-    const auto value = [&](double share) { return sign * function_(std::lerp(a, b, share)).value; };
-    std::uintmax_t steps = 60;
-    const double share = boost::math::tools::brent_find_minima(value, 0.0, 1.0, kBrentBits, steps).first;
-    places_.push_back(std::lerp(a, b, share));
+    const auto value = [&](double x) { return sign * function_(x).value; };
+    places_.push_back(least_between(value, a, b).place);
   }
 
   const std::function<Margin(double)>& function_;

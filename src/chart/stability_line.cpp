@@ -1,12 +1,11 @@
 #include "chart/stability_line.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <cstdint>
 
 #include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
+#include "base/minimum.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -14,7 +13,6 @@ namespace {
 
 constexpr double kTolerance = 1e-13;  // of the monodromy matrix
 constexpr double kDip = 1e-6;         // a minimum is at least so much below its neighbours, relatively
-constexpr int kBrentBits = 30;
 
 /// Least over all pairs of -Re (a - b)^2/(a b): 4 sin^2 of half the angle between two of the same modulus,
 /// negative for two on one ray. Analytic through a collision on the circle, where |a - b| has two cusps.
@@ -84,8 +82,7 @@ class ChangeFinder {
   void dip(double low, double middle, double high, bool unstable, const Function& function) {
     const double bound = std::min(function(low), function(high));
     if (!(function(middle) < bound - kDip * std::abs(bound))) return;
-    std::uintmax_t steps = 60;
-    const double p = boost::math::tools::brent_find_minima(function, low, high, kBrentBits, steps).first;
+    const double p = least_between(function, low, high).place;
     if (line_.at(p).unstable() != unstable) add(p);
   }
 
@@ -175,9 +172,8 @@ GrowthPeak largest_growth(StabilityLine& line, double from, double to, int steps
   int best = 0;
   for (int i = 1; i <= steps; ++i)
     if (line.at(position(i)).growth > line.at(position(best)).growth) best = i;
-  const auto [p, growth] = boost::math::tools::brent_find_minima(
-      [&](double x) { return -line.at(x).growth; }, position(std::max(best - 1, 0)),
-      position(std::min(best + 1, steps)), kBrentBits);
+  const auto [p, growth] = least_between([&](double x) { return -line.at(x).growth; },
+                                         position(std::max(best - 1, 0)), position(std::min(best + 1, steps)));
   return {p, -growth};
 }
 

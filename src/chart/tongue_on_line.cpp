@@ -1,11 +1,11 @@
 #include "chart/tongue_on_line.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "base/constants.hpp"
+#include "base/minimum.hpp"
 
 namespace strutt {
 namespace {
@@ -166,11 +166,10 @@ void TongueOnLine::add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& 
                                       tongue_width(value.point.variation, value.edges));
     low.growth_position = std::midpoint(low.position, high.position);
   } else {
-    const auto at = [&](double share) { return std::lerp(low.position, high.position, share); };
-    const auto [share, growth] = boost::math::tools::brent_find_minima(
-        [&](double x) { return -line_equation_.growth(at(x)); }, 0.0, 1.0, 30);
-    low.growth = -growth;
-    low.growth_position = at(share);
+    const auto [place, negative] =
+        least_between([&](double x) { return -line_equation_.growth(x); }, low.position, high.position);
+    low.growth = -negative;
+    low.growth_position = place;
   }
   high.growth = low.growth;
   high.growth_position = low.growth_position;

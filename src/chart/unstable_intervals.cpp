@@ -1,11 +1,11 @@
 #include "chart/unstable_intervals.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
+#include "base/minimum.hpp"
 #include "strutt/base/error.hpp"
 
 namespace strutt {
@@ -77,10 +77,8 @@ class MarginScan {
       const bool extreme =
           sign * margins[i] < sign * margins[i - 1] && sign * margins[i] <= sign * margins[i + 1];
       if (!extreme) continue;
-      const double a = places_[i - 1], b = places_[i + 1];  // Brent's tolerance is one of the variable
-      const auto [share, least] = boost::math::tools::brent_find_minima(
-          [&](double x) { return sign * margin(std::lerp(a, b, x)); }, 0.0, 1.0, 26);
-      const double place = std::lerp(a, b, share);
+      const auto [place, least] =
+          least_between([&](double x) { return sign * margin(x); }, places_[i - 1], places_[i + 1], 26);
       if (least < 0.0 && is_unstable(line_.at(place)) != unstable_[i]) found.push_back(place);
     }
     for (const double place : found) {

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kRadians = 16.0;  // that a solution turns by at most in one part of the period
+constexpr double kRadiansPerPart = 16.0;  // that a solution turns by at most in one part of the period
 constexpr double kMostParts = 10'000.0;
 
 /// Of all columns of [y; y'].
@@ -41,7 +41,7 @@ class RightHandSideOf {
 Monodromy integrated(PropagatorPool& pool, const UndampedSystem& y, Method method,
                      const MonodromyOptions& options) {
   const int n = static_cast<int>(2 * y.mass.rows());
-  const double needed = std::max(std::ceil(2.0 * pi * y.rate / kRadians), 1.0);
+  const double needed = std::max(std::ceil(2.0 * pi * y.rate / kRadiansPerPart), 1.0);
   if (!(needed <= kMostParts)) return without_result<Eigen::MatrixXd>(method, Outcome::step_limit);
   const auto parts = static_cast<int>(needed);
   const double coefficient_error =

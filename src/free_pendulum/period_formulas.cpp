@@ -1,11 +1,11 @@
 #include "strutt/free_pendulum/period_formulas.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 
 #include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
+#include "base/minimum.hpp"
 #include "free_pendulum/agm.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/base/floating_point.hpp"
@@ -170,7 +170,7 @@ struct Peak {
 Peak peak_of_31() {
   constexpr double kFrom = 1.5, kTo = 2.4;
   const auto falling = [](double amplitude) { return -error_at(PeriodMethod::krylov, amplitude); };
-  const auto [amplitude, value] = boost::math::tools::brent_find_minima(falling, kFrom, kTo, 50);
+  const auto [amplitude, value] = least_between(falling, kFrom, kTo, 50);
   return {amplitude, -value};
 }
 
