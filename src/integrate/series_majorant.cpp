@@ -24,32 +24,31 @@ CoefficientBounds anywhere(const PeriodicFunction& f, double r) {
   return result;
 }
 
-CoefficientBounds solution(const CoefficientBounds& bounds, double value, double slope) {
-  std::array<std::size_t, kMajorantTerms> occurring{};
-  std::size_t count = 0;
-  for (std::size_t j = 0; j < bounds.size(); ++j)
-    if (bounds[j] > 0.0) occurring[count++] = j;
-  CoefficientBounds a{value, slope};
-  for (std::size_t k = 0; k + 2 < a.size(); ++k) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count && occurring[i] <= k; ++i)
-      sum += bounds[occurring[i]] * a[k - occurring[i]];
-    a[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
+/// Of what Darboux's relation of order 2 q leaves out: (2q+1) B(1/2, q+1) C(q+i, i) at [q][i].
+using DarbouxWeights = std::array<std::array<double, kMajorantTerms / 2>, kMajorantTerms / 2>;
+DarbouxWeights darboux_weights() {
+  DarbouxWeights result;
+  double first = 2.0;
+  for (std::size_t q = 0; q < result.size(); ++q) {
+    if (q > 0) first *= 2.0 * static_cast<double>(q) / static_cast<double>(2 * q + 1);
+    double weight = static_cast<double>(2 * q + 1) * first;
+    for (std::size_t i = 0; i < result[q].size(); ++i) {
+      result[q][i] = weight;
+      weight *= static_cast<double>(q + 1 + i) / static_cast<double>(i + 1);
+    }
   }
-  return a;
+  return result;
 }
 
 /// What Darboux's relation of order 2 q leaves out of sum_k a_k s^k. Its terms fall faster and faster: after
 /// the last, each is less than half the one before.
-double left_out(int q, std::span<const double> a) {
-  double weight = 2.0 * (2 * q + 1);
-  for (int i = 1; i <= q; ++i) weight *= 2.0 * i / (2 * i + 1);
+double left_out(std::size_t q, std::span<const double> a) {
+  static const DarbouxWeights weights = darboux_weights();
   double sum = 0.0, last = 0.0, before = 0.0;
-  for (int i = 0; 2 * q + 1 + 2 * i < static_cast<int>(a.size()); ++i) {
+  for (std::size_t i = 0; 2 * q + 1 + 2 * i < a.size(); ++i) {
     before = last;
-    last = weight * a[static_cast<std::size_t>(2 * q + 1 + 2 * i)];
+    last = weights[q][i] * a[2 * q + 1 + 2 * i];
     sum += last;
-    weight *= static_cast<double>(q + 1 + i) / (i + 1);
   }
   return last <= 0.5 * before ? sum + last : std::numeric_limits<double>::infinity();
 }
@@ -68,17 +67,34 @@ CoefficientBounds middle_bounds(const SeriesNodes& nodes, const PeriodicFunction
   return result;
 }
 
-SeriesMajorant::SeriesMajorant(const CoefficientBounds& bounds)
-    : first_(solution(bounds, 1.0, 0.0)), second_(solution(bounds, 0.0, 1.0)) {}
+SeriesMajorant::SeriesMajorant(const CoefficientBounds& bounds) : first_{1.0, 0.0}, second_{0.0, 1.0} {
+  std::array<std::size_t, kMajorantTerms> occurring{};
+  std::size_t count = 0;
+  for (std::size_t j = 0; j < bounds.size(); ++j)
+    if (bounds[j] > 0.0) occurring[count++] = j;
+  for (std::size_t k = 0; k + 2 < first_.size(); ++k) {
+    double first = 0.0, second = 0.0;  // side by side: each addition waits for the one before
+    for (std::size_t i = 0; i < count && occurring[i] <= k; ++i) {
+      const double bound = bounds[occurring[i]];
+      first += bound * first_[k - occurring[i]];
+      second += bound * second_[k - occurring[i]];
+    }
+    const auto divisor = static_cast<double>((k + 1) * (k + 2));
+    first_[k + 2] = first / divisor;
+    second_[k + 2] = second / divisor;
+  }
+  for (std::size_t k = 0; k < first_slope_.size(); ++k) {
+    first_slope_[k] = static_cast<double>(k + 1) * first_[k + 1];
+    second_slope_[k] = static_cast<double>(k + 1) * second_[k + 1];
+  }
+}
 
 double SeriesMajorant::tail(int terms) const {
-  const auto of = [terms](const CoefficientBounds& a) {
-    CoefficientBounds slope;  // coefficients of the derivative
-    for (std::size_t k = 0; k + 1 < slope.size(); ++k) slope[k] = static_cast<double>(k + 1) * a[k + 1];
-    const auto known = std::span(slope).first(slope.size() - 1);
-    return std::max(left_out(terms - 1, a) / kValueShare, left_out(terms - 2, known));
+  const auto q = static_cast<std::size_t>(terms);
+  const auto of = [q](std::span<const double> value, std::span<const double> slope) {
+    return std::max(left_out(q - 1, value) / kValueShare, left_out(q - 2, slope));
   };
-  return kSumRounding * std::max(of(first_), 2.0 * of(second_));
+  return kSumRounding * std::max(of(first_, first_slope_), 2.0 * of(second_, second_slope_));
 }
 
 }  // namespace strutt::detail

@@ -28,6 +28,7 @@ class SeriesMajorant {
 
  private:
   CoefficientBounds first_, second_;
+  std::array<double, kMajorantTerms - 1> first_slope_, second_slope_;  // of their derivatives
 };
 
 }  // namespace strutt::detail
