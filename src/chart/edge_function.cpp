@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/constants.hpp"
@@ -27,6 +28,14 @@ std::optional<double> amplitude_of_one_harmonic(const PeriodicFunction& v) {
   if (v.is_constant()) return 0.0;
   if (v.harmonics().size() != 1 || v.harmonics().front().order != 1) return std::nullopt;
   return std::hypot(v.harmonics().front().cosine, v.harmonics().front().sine);
+}
+
+/// Whether both are multiples, not of opposite sign, of one cosine or one sine.
+bool same_direction(const PeriodicFunction& a, const PeriodicFunction& b) {
+  const auto first = [](const PeriodicFunction& v) { return v.is_constant() ? Harmonic{} : v.harmonics().front(); };
+  const Harmonic x = first(a), y = first(b);
+  return x.cosine * y.cosine >= 0.0 && x.sine * y.sine >= 0.0 &&
+         ((x.cosine == 0.0 && y.cosine == 0.0) || (x.sine == 0.0 && y.sine == 0.0));
 }
 
 double sum_of_amplitudes(const PeriodicFunction& v) {
@@ -121,11 +130,11 @@ double LineEquation::growth(double parameter) {
 }
 
 double EdgeFunction::Value::below(bool upper) const {
-  return point.mean - (upper ? edges.upper.value : edges.lower->value);
+  return point.mean - edge(upper).value;
 }
 
 double EdgeFunction::Value::error(bool upper) const {
-  return point.error + (upper ? edges.upper.error : edges.lower->error) + kUnit * std::abs(below(upper));
+  return point.error + edge(upper).error + kUnit * std::abs(below(upper));
 }
 
 const EdgeFunction::Value& EdgeFunction::at(double parameter) {
@@ -140,6 +149,25 @@ TongueEdges EdgeFunction::edges_of(const LinePoint& point) {
   if (const auto epsilon = amplitude_of_one_harmonic(point.variation))
     return line_.mathieu_tongue(*epsilon, order_);
   return tongue_edges(point.variation, order_, order_).front();
+}
+
+std::optional<double> EdgeFunction::bend(const Value& a, const Value& b, bool upper) {
+  const auto from = amplitude_of_one_harmonic(a.point.variation), to = amplitude_of_one_harmonic(b.point.variation);
+  if (!from || !to || a.point.mean != b.point.mean || !same_direction(a.point.variation, b.point.variation)) return {};
+  const double change = std::abs(*to - *from);
+  double gap = std::numeric_limits<double>::infinity();
+  for (const auto& [value, epsilon] : {std::pair{&a, *from}, std::pair{&b, *to}}) {
+    for (const int next : {order_ - 2, order_ + 2}) {
+      if (next < (upper ? 0 : 1)) continue;
+      if (next > kLargestTongue) return {};
+      const Value other{{}, line_.mathieu_tongue(epsilon, next)};
+      gap = std::min(gap, std::abs(other.edge(upper).value - value->edge(upper).value) - other.edge(upper).error -
+                              value->edge(upper).error);
+    }
+  }
+  const double least = gap - change;  // each of the two moves by half of it at most
+  if (!(least > 0.0)) return {};
+  return 0.25 * change * change / least;
 }
 
 std::optional<EdgeFunction::Slope> EdgeFunction::slope(bool upper, double from, double to,

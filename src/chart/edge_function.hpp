@@ -61,9 +61,15 @@ class EdgeFunction {
     TongueEdges edges;
     double below(bool upper) const;  ///< F: how far the mean is above the edge
     double error(bool upper) const;
+    const CharacteristicValue& edge(bool upper) const { return upper ? edges.upper : *edges.lower; }
   };
   const Value& at(double parameter);
   int order() const { return order_; }
+
+  /// How far F is, between two places, from the straight line in epsilon through its values there, at most. Nothing
+  /// unless the equation is Mathieu's with one mean and epsilon of one sign, or where edges of the same symmetry are too
+  /// close together: with V = epsilon cos, |edge''| <= 2/(distance to the next of its symmetry).
+  std::optional<double> bend(const Value& a, const Value& b, bool upper);
 
   /// The mean of F' over [from, to], by Chebyshev interpolation in a window around it inside [least, most],
   /// and an estimate of its relative error. Nothing if the window would be too narrow.

@@ -56,6 +56,15 @@ class ZeroSearch {
     return change_between(low.point, high.point) <= low.error(upper_) + high.error(upper_);
   }
 
+  /// F is too straight to reach zero between two values of the same sign. It comes close to zero where a line passes
+  /// the tip of a tongue, where its value is that of a square.
+  bool straight(double a, double b) {
+    const auto &low = function_.at(a), &high = function_.at(b);
+    const auto bend = function_.bend(low, high, upper_);
+    const double least = std::min(std::abs(low.below(upper_)), std::abs(high.below(upper_)));
+    return bend && least > *bend * (1.0 + 1e-9) + low.error(upper_) + high.error(upper_);
+  }
+
   void search(double a, double b) {
     if (++pieces_ > kMostPieces)
       throw NumericalFailure("tongue " + std::to_string(function_.order()) +
@@ -69,7 +78,7 @@ class ZeroSearch {
       search(clear_of(position, b, at_b), b);
       return;
     }
-    if (b - a <= resolution_ || empty(a, b) || indistinct(a, b)) return;
+    if (b - a <= resolution_ || empty(a, b) || indistinct(a, b) || straight(a, b)) return;
     const double middle = std::midpoint(a, b);
     search(a, middle);
     search(middle, b);

@@ -30,19 +30,19 @@ bool enters(const EdgeZero& zero, int order) {
   return zero.rising != zero.upper;
 }
 
-std::vector<Stretch> stretches_between(const std::vector<EdgeZero>& zeros, int order) {
+std::vector<Stretch> stretches_between(const std::vector<EdgeZero>& zeros, int order, bool begins_inside) {
   std::vector<Stretch> result;
   bool inside = false;
   for (const EdgeZero& zero : zeros) {
     if (enters(zero, order)) {
-      if (inside) continue;  // both edges meet in a tip on the end of the line
+      if (inside) continue;  // both edges meet in a tip; likewise where it is left
       result.push_back({zero, std::nullopt});
       inside = true;
     } else if (inside) {
       result.back().end = zero;
       inside = false;
-    } else {
-      result.push_back({std::nullopt, zero});  // the line begins inside
+    } else if (begins_inside && result.empty()) {
+      result.push_back({std::nullopt, zero});
     }
   }
   return result;
@@ -64,8 +64,9 @@ std::vector<Stretch> TongueOnLine::stretches() {
     std::ranges::move(edge_zeros(function_, false, line_, options_.resolution, options_.cancel),
                       std::back_inserter(zeros));
   order_twins(zeros, 1e-9 * (line_.to - line_.from));
-  if (zeros.empty() && inside(line_.from)) return {{std::nullopt, std::nullopt}};
-  return stretches_between(zeros, function_.order());
+  if (zeros.empty()) return inside(line_.from) ? std::vector<Stretch>{Stretch{}} : std::vector<Stretch>{};
+  const bool begins_inside = inside(line_.from) || zeros.front().position == line_.from;
+  return stretches_between(zeros, function_.order(), begins_inside);
 }
 
 bool TongueOnLine::inside(double position) {

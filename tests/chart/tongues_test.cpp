@@ -155,6 +155,25 @@ TEST_CASE("a tip on the end of the line is an edge there", "[chart][tongues][slo
   for (const TongueEdge& edge : edges) CHECK(edge.outcome == Outcome::converged);
 }
 
+TEST_CASE("a line may pass the tip of a tongue", "[chart][tongues]") {
+  const auto of_order = [](int order, double delta, const TongueLine& line) {
+    auto edges = tongues(mathieu_scene(delta, 0.0), line);
+    std::erase_if(edges, [order](const TongueEdge& edge) { return edge.order != order; });
+    return edges;
+  };
+  const auto through = of_order(2, 1.0, {"mathieu.epsilon", -5.0, 5.0});  // inside on both sides
+  REQUIRE(through.size() == 2);
+  CHECK((through[0].upper && through[0].crossing == 0));
+  CHECK((!through[1].upper && through[1].crossing == 1));
+  for (const TongueEdge& edge : through) CHECK((edge.position == 0.0 && edge.error == 0.0));
+  CHECK(of_order(2, 1.0, {"mathieu.epsilon", -5.0, 0.0}).size() == 1);
+  const auto beside = of_order(4, 4.0, {"mathieu.epsilon", -5.0, 5.0});  // outside on both sides
+  REQUIRE(beside.size() == 2);
+  for (const TongueEdge& edge : beside) CHECK((edge.position == 0.0 && edge.width == 0.0));
+  for (const TongueEdge& edge : of_order(4, 4.0, {"mathieu.epsilon", -3.0, 0.5}))  // no midpoint is at the tip
+    CHECK(std::abs(edge.position) <= edge.error);
+}
+
 TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][N08]") {
   Scene scene;
   scene.hill = HillTable{.period = 2.0 * 3.141592653589793, .harmonics = {{1, 1.0, 0.0}, {2, 0.5, 0.0}}};
