@@ -59,7 +59,7 @@ bool find_truths(Questions& questions, const TradeoffRequest& request) {
          !is_cancelled(request);
 }
 
-/// Marks the rows that no other method beats in both. Of equal ones the first is marked.
+/// Marks the rows that no other method beats in both; equal rows alike.
 void mark_front(std::vector<TradeoffRow>& rows) {
   std::vector<TradeoffRow*> order;
   for (auto& row : rows) {
@@ -69,10 +69,12 @@ void mark_front(std::vector<TradeoffRow>& rows) {
     return a->points_per_second != b->points_per_second ? a->points_per_second > b->points_per_second
                                                         : a->true_error < b->true_error;
   });
-  double least = std::numeric_limits<double>::infinity();
+  const TradeoffRow* last = nullptr;  // on the front
   for (TradeoffRow* row : order) {
-    row->pareto = row->true_error < least;
-    least = std::min(least, row->true_error);
+    const bool equal = last != nullptr && row->true_error == last->true_error &&
+                       row->points_per_second == last->points_per_second;
+    row->pareto = last == nullptr || row->true_error < last->true_error || equal;
+    if (row->pareto) last = row;
   }
 }
 
