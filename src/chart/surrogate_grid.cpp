@@ -32,7 +32,7 @@ void weigh(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, dou
   }
 }
 
-constexpr std::size_t kPanelColumns = 8 * GridPiece::kTileColumns;
+constexpr std::size_t kPanelColumns = 4 * GridPiece::kTileColumns;
 
 /// Pieces of about the same width, of whole tiles.
 std::size_t width_of_pieces(std::size_t columns) {

@@ -12,7 +12,7 @@ namespace strutt {
 /// Some cells of a few rows of a chart that lie in one box.
 struct GridPiece {
   static constexpr std::size_t kMostRows = 32, kMostColumns = 1920;
-  static constexpr std::size_t kTileColumns = 120;  ///< whole blocks of the tensor kernel
+  static constexpr std::size_t kTileColumns = 240;  ///< whole blocks of the tensor kernel
   std::size_t box = 0;
   std::size_t first_row = 0, rows = 0;
   std::size_t first_column = 0, columns = 0;
