@@ -9,6 +9,7 @@
 
 #include "chart/cell_columns.hpp"
 #include "strutt/floquet/verdict.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::cell_row_test {
 
@@ -62,7 +63,7 @@ struct Row : CellRow {
 
 }  // namespace
 
-TEST_CASE("cells in vector code are those of single points", "[chart][simd]") {
+TEST_CASE("cells in vector code are those of single points", "[chart][simd][ratchet]") {
   const double h = GENERATE(0.0, 1e-9, 0.3, 20.0), kappa_square = GENERATE(0.5, 40.0);
   const bool shifted = GENERATE(false, true);
   Factors f = random_factors(kCells + 8, 9.0);
@@ -89,12 +90,16 @@ TEST_CASE("cells in vector code are those of single points", "[chart][simd]") {
   for (std::size_t c = 0; c < kCells; ++c) {
     INFO("cell " << c << ", h " << h << ", kappa^2 " << kappa_square);
     const double size = std::max(1.0, std::abs(single.margin[c]));
-    CHECK(std::abs(plain.margin[c] - single.margin[c]) <= 1e-13 * size);
+    check_within("margin of a cell in vector code over max(1; |margin|)",
+                 std::abs(plain.margin[c] - single.margin[c]) / size, 8e-16);
     CHECK(plain.verdict[c] == single.verdict[c]);
-    CHECK(std::abs(plain.growth[c] - single.growth[c]) <= 1e-14 * std::max(1.0, std::abs(single.growth[c])));
-    CHECK(std::abs(plain.winding[c] - single.winding[c]) <= 1e-14 * single.winding[c]);
-    CHECK(std::abs(plain.trace[c] - single.trace[c]) <=
-          1e-13 * std::exp(-h) * 32.0 * std::abs(f.u1[c] * f.du2[c]) + 1e-13 * std::abs(single.trace[c]));
+    check_within("growth of a cell in vector code over max(1; |growth|)",
+                 std::abs(plain.growth[c] - single.growth[c]) / std::max(1.0, std::abs(single.growth[c])),
+                 8e-16);
+    check_close("winding of a cell in vector code (relative)", plain.winding[c], single.winding[c], 8e-16);
+    const double terms = std::exp(-h) * 32.0 * std::abs(f.u1[c] * f.du2[c]) + std::abs(single.trace[c]);
+    check_within("trace of a cell in vector code over its terms",
+                 std::abs(plain.trace[c] - single.trace[c]) / terms, 2.5e-15);
     CHECK(plain.error[c] >= single.error[c] * (1.0 - 1e-12));
     CHECK(plain.error[c] <= 1.01 * single.error[c] + 2e-14);
   }
@@ -173,7 +178,7 @@ TEST_CASE("a factor that may be zero leaves the verdict open", "[chart][simd]") 
   CHECK_FALSE(row.all_resolved);
 }
 
-TEST_CASE("turns are followed from cell to cell by the signs", "[chart][simd]") {
+TEST_CASE("turns are followed from cell to cell by the signs", "[chart][simd][ratchet]") {
   constexpr std::size_t cells = 300;
   const double step = GENERATE(0.05, 0.9, 1.7);  // in quarter turns
   Factors f;
@@ -197,7 +202,8 @@ TEST_CASE("turns are followed from cell to cell by the signs", "[chart][simd]") 
     CHECK(row.turns.quadrant == std::floor(5.3 + step * static_cast<double>(cells - 1)));
     // a rotation by half of it over half a period
     for (std::size_t c = 0; c < cells; ++c)
-      CHECK(row.winding[c] == Approx(0.5 * (5.3 + step * static_cast<double>(c))).epsilon(1e-13));
+      check_close("winding of cells on a line (relative)", row.winding[c],
+                  0.5 * (5.3 + step * static_cast<double>(c)), 8e-16);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "strutt/chart/tongues.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 #include "support/reference.hpp"
 #include "support/scenes.hpp"
 #include "support/tongue_edges.hpp"
@@ -14,7 +15,8 @@ namespace strutt::test::damped_tongues_test {
 
 using std::numbers::pi;
 
-TEST_CASE("damped edges of the first tongue against references of 40 digits", "[chart][tongues][reference]") {
+TEST_CASE("damped edges of the first tongue against references of 40 digits",
+          "[chart][tongues][reference][ratchet]") {
   // the last twelve rows of the family stand in pairs, 1e-9 above an edge and 1e-6 below it; the edge they
   // were made from is good to about 1e-12, their margins to 40 digits
   int checked = 0;
@@ -35,19 +37,19 @@ TEST_CASE("damped edges of the first tongue against references of 40 digits", "[
           nearest, std::min(std::abs(delta - 1e-9 - edge.position), std::abs(delta + 1e-6 - edge.position)));
     }
     if (nearest > 1e-7) continue;
-    CHECK(nearest < 5e-12);
+    check_within("edge of a damped tongue against the references", nearest, 1e-12);
     ++checked;
   }
   CHECK(checked == 12);
 }
 
-TEST_CASE("the verdict is certain beside each damped edge", "[chart][tongues][slow]") {
+TEST_CASE("the verdict is certain beside each damped edge", "[chart][tongues][ratchet][slow]") {
   const auto check = [](const Scene& scene, const TongueLine& line, std::size_t least) {
     const auto edges = tongues(scene, line);
     CHECK(edges.size() >= least);
     for (const TongueEdge& edge : edges) {
       CAPTURE(line.parameter, edge.order, edge.upper, edge.position, edge.error);
-      CHECK(edge.error <= 1e-12);
+      check_within("bound of an edge of a damped tongue", edge.error, 2e-13);
       const double step = 1.01 * absolute_error(edge) + 1e-15;
       const auto below = stability_at(scene, line.parameter, edge.position - step);
       const auto above = stability_at(scene, line.parameter, edge.position + step);
@@ -86,15 +88,18 @@ TEST_CASE("the verdict is certain beside each damped edge", "[chart][tongues][sl
   check(rod, {"support.frequency", 2.0, 20.0}, 6);
 }
 
-TEST_CASE("narrow damped tongues obey the perturbation formula", "[chart][tongues][extreme][N06]") {
+TEST_CASE("narrow damped tongues obey the perturbation formula", "[chart][tongues][extreme][N06][ratchet]") {
   // (delta - 1/4)^2 = (epsilon^2 - c^2)/4 to lowest order, relative corrections of order epsilon
   const double epsilon = 1e-9, c = 0.8e-9;
   const auto first = of_order(tongues(mathieu_scene(1.0, epsilon, c), {"mathieu.delta", 0.1, 0.5}), 1);
   REQUIRE(first.size() == 2);
-  CHECK(first[0].width == Approx(0.6e-9).epsilon(1e-8).margin(0.0));
-  CHECK(first[0].width_relative_error <= 1e-10);
+  check_close("N06 width of a damped tongue of 6e-10 against perturbation theory (relative)", first[0].width,
+              0.6e-9, 4e-14);
+  check_within("N06 bound of the width of a damped tongue of 6e-10 (relative)", first[0].width_relative_error,
+               4e-12);
   CHECK(first[0].outcome == Outcome::converged);
-  CHECK(first[0].position == Approx(0.25 - 0.3e-9).epsilon(1e-15));
+  check_close("N06 edge of a damped tongue of 6e-10 against perturbation theory (relative)",
+              first[0].position, 0.25 - 0.3e-9, 8e-16);
   CHECK(of_order(tongues(mathieu_scene(1.0, epsilon, 1.0000001e-9), {"mathieu.delta", 0.1, 0.5}), 1).empty());
   // tongue n: growth pi w/n per period closes at c = growth/pi; half of it leaves sqrt(3)/2 of the width
   for (const int n : {2, 3, 5}) {
@@ -104,13 +109,15 @@ TEST_CASE("narrow damped tongues obey the perturbation formula", "[chart][tongue
     const TongueLine line{"mathieu.delta", middle - 0.1, middle + 0.1};
     const auto half = of_order(tongues(mathieu_scene(1.0, 1e-3, 0.5 * width / n), line), n);
     REQUIRE(half.size() == 2);
-    CHECK(half[0].width == Approx(std::sqrt(0.75) * width).epsilon(1e-5).margin(0.0));
+    check_close("N06 width of a tongue at half its closing damping against perturbation theory (relative)",
+                half[0].width, std::sqrt(0.75) * width, 2.5e-7);
     CHECK(of_order(tongues(mathieu_scene(1.0, 1e-3, 1.001 * width / n), line), n).empty());
     CHECK(of_order(tongues(mathieu_scene(1.0, 1e-3, 0.999 * width / n), line), n).size() == 2);
   }
 }
 
-TEST_CASE("the narrow form and the zeros of the margin agree where both are good", "[chart][tongues]") {
+TEST_CASE("the narrow form and the zeros of the margin agree where both are good",
+          "[chart][tongues][ratchet]") {
   // widths in the mean about the limit between them, 2e-6
   for (const double epsilon : {0.0017, 0.0020, 0.0023})
     for (const double share : {0.3, 0.9}) {
@@ -128,17 +135,19 @@ TEST_CASE("the narrow form and the zeros of the margin agree where both are good
                            edge.position - side * step)
                   .margin < 0.0);
       }
-      CHECK(edges[0].width == Approx(std::sqrt(1.0 - share * share) * width).epsilon(1e-4).margin(0.0));
+      check_close("width of a damped tongue next to the narrow form against perturbation theory (relative)",
+                  edges[0].width, std::sqrt(1.0 - share * share) * width, 2e-5);
     }
 }
 
-TEST_CASE("growth of a damped tongue is that of the undamped one less cT/2", "[chart][tongues]") {
+TEST_CASE("growth of a damped tongue is that of the undamped one less cT/2", "[chart][tongues][ratchet]") {
   const auto damped = tongues(mathieu_scene(1.0, 0.5, 0.02), {"mathieu.delta", -1.0, 2.0}, {.growth = true});
   const auto free = tongues(mathieu_scene(1.0, 0.5, 0.0), {"mathieu.delta", -1.0, 2.0}, {.growth = true});
   REQUIRE(damped.size() == 5);
   for (const int n : {1, 2}) {
     const auto with = of_order(damped, n), without = of_order(free, n);
-    CHECK(with[0].growth == Approx(without[0].growth - pi * 0.02).epsilon(1e-6));
+    check_close("largest growth of a damped tongue against that of the free one (relative)", with[0].growth,
+                without[0].growth - pi * 0.02, 1e-14);
   }
 }
 

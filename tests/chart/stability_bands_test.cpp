@@ -7,6 +7,7 @@
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 #include "support/scenes.hpp"
 
 namespace strutt::test::stability_bands_test {
@@ -37,7 +38,7 @@ double factor_zero(Scene scene, const std::string& path, int row, int column, do
 
 TEST_CASE(
     "Kapitza's threshold of the rod is the same by Fourier edges and by the zeros of half-period factors",
-    "[chart][bands][kapitza]") {
+    "[chart][bands][kapitza][ratchet]") {
   // epsilon = 3 r0/(2 l) = 0.075 whatever the frequency; stable above the frequency at which -delta = -a_0(2
   // epsilon)/4
   const Scene scene = rod(Equilibrium::inverted, 0.05, 100.0);
@@ -49,18 +50,20 @@ TEST_CASE(
   CHECK(bands[1].to == 1e4);
   CHECK(bands[1].method == Method::fourier);
   const double threshold = bands[1].from;
-  CHECK(bands[1].from_error <= 1e-13 * threshold);
+  check_within("bound of Kapitza's threshold (relative)", bands[1].from_error / threshold, 1e-15);
   const double a0 = characteristic_values(0, 0, 0.15).front().a.value;
-  CHECK(threshold == Approx(std::sqrt(1.5 * 9.81 / (-a0 / 4.0))).epsilon(1e-13).margin(0));
+  check_close("Kapitza's threshold against a characteristic value (relative)", threshold,
+              std::sqrt(1.5 * 9.81 / (-a0 / 4.0)), 8e-16);
   const double by_factor = factor_zero(scene, "support.frequency", 1, 0, 60.0, 90.0);
-  CHECK(std::abs(by_factor / threshold - 1.0) <= 1e-12);
+  check_close("end of a band against a zero of a half-period factor (relative)", by_factor, threshold,
+              2.5e-14);
   // r0 omega/sqrt(g l): for small amplitudes 2/sqrt 3, less by a term of order epsilon^2
   const double classical = std::sqrt(4.0 * 9.81 / 3.0) / 0.05;
   CHECK(std::abs(threshold / classical - 1.0) < 0.075 * 0.075);
 }
 
 TEST_CASE("the amplitudes that hold the inverted rod have a least and a largest, by both routes",
-          "[chart][bands][kapitza]") {
+          "[chart][bands][kapitza][ratchet]") {
   const Scene scene = rod(Equilibrium::inverted, 0.05, 120.0);
   const auto bands = stability_bands(scene, {"support.amplitude", 0.0, 0.35});
   REQUIRE(bands.size() == 3);
@@ -68,7 +71,8 @@ TEST_CASE("the amplitudes that hold the inverted rod have a least and a largest,
   CHECK(bands[1].verdict == Verdict::stable);
   CHECK(bands[2].tongue == 1);
   const double least = factor_zero(scene, "support.amplitude", 1, 0, 0.02, 0.05);
-  CHECK(std::abs(bands[1].from / least - 1.0) <= 1e-12);
+  check_close("end of a band against a zero of a half-period factor (relative)", bands[1].from, least,
+              2.5e-14);
   // the upper limit is an edge of tongue 1, D = -2: u1 or u2' is zero
   for (const auto& [row, column] : {std::pair(0, 0), std::pair(1, 1)}) {
     double largest = 0.0;
@@ -77,7 +81,8 @@ TEST_CASE("the amplitudes that hold the inverted rod have a least and a largest,
     } catch (const std::exception&) {
       continue;  // no change of sign: the other one
     }
-    CHECK(std::abs(bands[1].to / largest - 1.0) <= 1e-12);
+    check_close("end of a band against a zero of a half-period factor (relative)", bands[1].to, largest,
+                2.5e-14);
   }
   CHECK(bands[1].to == Approx(0.30382577599750).epsilon(1e-12));
 }

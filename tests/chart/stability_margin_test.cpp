@@ -7,6 +7,7 @@
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/sensitivity.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 #include "support/scenes.hpp"
 
 namespace strutt::test::stability_margin_test {
@@ -56,27 +57,33 @@ std::vector<Scene> designs() {
 
 }  // namespace
 
-TEST_CASE("the edges of Mathieu's equation along delta are characteristic values", "[chart][margin]") {
+TEST_CASE("the edges of Mathieu's equation along delta are characteristic values",
+          "[chart][margin][ratchet]") {
   const auto known = characteristic_values(0, 2, 0.8);
   const auto margin = stability_margin(mathieu_scene(0.6, 0.4), {"mathieu.delta"});
   CHECK(margin.verdict == Verdict::stable);
   const ParameterMargin& row = margin.parameters.front();
-  CHECK(*row.lower_edge == Approx(known[1].a.value / 4.0).epsilon(1e-15));
-  CHECK(*row.upper_edge == Approx(known[2].b->value / 4.0).epsilon(1e-15));
-  CHECK(row.distance == Approx(0.6 - known[1].a.value / 4.0).epsilon(1e-14));
+  check_close("edges about a design against characteristic values (relative)", *row.lower_edge,
+              known[1].a.value / 4.0, 8e-16);
+  check_close("edges about a design against characteristic values (relative)", *row.upper_edge,
+              known[2].b->value / 4.0, 8e-16);
+  check_close("distance of a design to an edge (relative)", row.distance, 0.6 - known[1].a.value / 4.0,
+              8e-16);
   CHECK(row.relative_distance == row.distance / 0.6);
   CHECK(row.tongue == 1);
   CHECK(row.method == Method::fourier);
   CHECK(row.outcome == Outcome::converged);
 }
 
-TEST_CASE("an unstable design has a negative distance to stability", "[chart][margin]") {
+TEST_CASE("an unstable design has a negative distance to stability", "[chart][margin][ratchet]") {
   const auto known = characteristic_values(1, 1, 0.8);
   const auto margin = stability_margin(mathieu_scene(0.3, 0.4), {"mathieu.delta", "mathieu.damping"});
   CHECK(margin.verdict == Verdict::unstable);
   const auto& delta = margin.parameters[0];
-  CHECK(*delta.lower_edge == Approx(known[0].b->value / 4.0).epsilon(1e-14));
-  CHECK(*delta.upper_edge == Approx(known[0].a.value / 4.0).epsilon(1e-14));
+  check_close("edges about a design against characteristic values (relative)", *delta.lower_edge,
+              known[0].b->value / 4.0, 8e-16);
+  check_close("edges about a design against characteristic values (relative)", *delta.upper_edge,
+              known[0].a.value / 4.0, 8e-16);
   CHECK(delta.distance < 0.0);
   CHECK(delta.tongue == 1);
   const auto& damping = margin.parameters[1];
@@ -112,7 +119,7 @@ TEST_CASE("each edge parts verdicts, and none is between it and the design", "[c
 }
 
 TEST_CASE("the joint margin is an edge, not further than any single one, and no random change is nearer",
-          "[chart][margin][slow]") {
+          "[chart][margin][ratchet][slow]") {
   std::srand(7);
   for (const Scene& scene : designs()) {
     const auto margin = stability_margin(scene, stability_parameters(scene),
@@ -131,7 +138,7 @@ TEST_CASE("the joint margin is an edge, not further than any single one, and no 
         values.push_back(std::lerp(p, joint.edge[i], share));
         square += std::pow((joint.edge[i] - p) / p, 2);
       }
-      CHECK(std::sqrt(square) == Approx(r).epsilon(1e-12));
+      check_close("joint distance against its edge (relative)", std::sqrt(square), r, 2e-14);
       return values;
     };
     CHECK(verdict_at(scene, joint.parameters, moved(1.0 - 1e-7)) == margin.verdict);
@@ -151,7 +158,8 @@ TEST_CASE("the joint margin is an edge, not further than any single one, and no 
   }
 }
 
-TEST_CASE("edges move as their sensitivities say, for every model", "[chart][margin][sensitivity][slow]") {
+TEST_CASE("edges move as their sensitivities say, for every model",
+          "[chart][margin][sensitivity][ratchet][slow]") {
   Scene damped = coupled_scene(3.0);
   damped.linear->damping.mean = Eigen::Matrix2d{{0.05, 0.01}, {0.0, 0.1}};
   Scene hill;
@@ -186,7 +194,8 @@ TEST_CASE("edges move as their sensitivities say, for every model", "[chart][mar
                                (edge_at(value + 2 * step) - edge_at(value - 2 * step))) /
                               (12.0 * step);
       const Derivative found = edge_shift(engine, on_edge, along, by);
-      CHECK(found.error <= 1e-9 * std::max(1.0, std::abs(found.value)));
+      check_within("bound of the shift of an edge over max(1; |shift|)",
+                   found.error / std::max(1.0, std::abs(found.value)), 3e-10);
       CHECK(std::abs(found.value - expected) <= found.error + 1e-7 * std::max(1.0, std::abs(expected)));
     }
     CHECK(edge_shift(engine, on_edge, along, along).value == 0.0);
@@ -208,17 +217,17 @@ TEST_CASE("beyond a thousand tongues the distance is not known, and said to be s
   CHECK(margin.joint.outcome == Outcome::tolerance_not_reached);
 }
 
-TEST_CASE("closed tongues bound nothing", "[chart][margin]") {
+TEST_CASE("closed tongues bound nothing", "[chart][margin][ratchet]") {
   const auto margin = stability_margin(mathieu_scene(0.6, 0.0), {"mathieu.delta", "mathieu.epsilon"});
   CHECK(*margin.parameters[0].lower_edge == 0.0);
   CHECK_FALSE(margin.parameters[0].upper_edge);
   CHECK(margin.parameters[0].tongue == 0);
   CHECK(std::isnan(margin.parameters[1].relative_distance));
   CHECK(margin.joint.parameters == std::vector<std::string>{"mathieu.delta"});
-  CHECK(margin.joint.distance == Approx(1.0));
+  check_close("joint distance of a single parameter (relative)", margin.joint.distance, 1.0, 1e-15);
 }
 
-TEST_CASE("a design on the edge has no distance to it", "[chart][margin]") {
+TEST_CASE("a design on the edge has no distance to it", "[chart][margin][ratchet]") {
   const auto boundary = stability_margin(mathieu_scene(0.0, 0.0), {"mathieu.delta"});
   CHECK(boundary.verdict == Verdict::boundary);
   CHECK(boundary.parameters.front().distance == 0.0);
@@ -227,11 +236,11 @@ TEST_CASE("a design on the edge has no distance to it", "[chart][margin]") {
   const auto unresolved = stability_margin(mathieu_scene(edge, 0.4), {"mathieu.delta"});
   CHECK(unresolved.verdict == Verdict::unresolved);
   CHECK(unresolved.parameters.front().distance == 0.0);
-  CHECK(unresolved.parameters.front().error < 1e-13);
+  check_within("bound of the distance of a design on an edge", unresolved.parameters.front().error, 1.5e-14);
   CHECK(unresolved.parameters.front().outcome == Outcome::tolerance_not_reached);
 }
 
-TEST_CASE("parameters without influence have no edges", "[chart][margin]") {
+TEST_CASE("parameters without influence have no edges", "[chart][margin][ratchet]") {
   const Scene scene = rod(Equilibrium::hanging, 0.05, 12.0);
   const auto margin = stability_margin(scene, {"support.phase", "pendulum.mass", "support.frequency"});
   for (const std::size_t i : {0, 1}) {
@@ -239,7 +248,8 @@ TEST_CASE("parameters without influence have no edges", "[chart][margin]") {
     CHECK_FALSE(margin.parameters[i].lower_edge);
   }
   CHECK(margin.joint.parameters == std::vector<std::string>{"support.frequency"});
-  CHECK(margin.joint.distance == Approx(margin.parameters[2].relative_distance).epsilon(1e-13));
+  check_close("joint distance of a single parameter (relative)", margin.joint.distance,
+              margin.parameters[2].relative_distance, 1e-15);
   const auto all = stability_parameters(scene);
   CHECK(all == std::vector<std::string>{"pendulum.length", "pendulum.gravity", "pendulum.damping",
                                         "support.amplitude", "support.frequency"});

@@ -6,6 +6,7 @@
 
 #include "strutt/chart/tongue_curves.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::system_curves_test {
 namespace {
@@ -94,7 +95,8 @@ TEST_CASE("curves of a system agree with a dense scan of the verdict", "[chart][
   }
 }
 
-TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[chart][tongues][slow]") {
+TEST_CASE("tongues of a system begin at the resonances at zero excitation",
+          "[chart][tongues][ratchet][slow]") {
   auto curves = tongue_curves(coupled_pendulums(), kAlong, kOver, {.tolerance = 1e-8});
   REQUIRE(curves.size() == 3);  // down one edge, up the other
   std::ranges::sort(curves, {}, [](const TongueCurve& c) { return c.points.front().along; });
@@ -105,7 +107,7 @@ TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[ch
     const auto tips = tips_of(curves[i]);
     REQUIRE(tips.size() == 1);
     CHECK(tips[0].over == 0.0);
-    CHECK(tips[0].along == Approx(resonances[i]).epsilon(1e-14).margin(0.0));
+    check_close("resonance of a system at rest (relative)", tips[0].along, resonances[i], 8e-16);
     CHECK(curves[i].points.size() < 300);
     for (const CurvePoint& p : curves[i].points) {
       CHECK(p.mechanism == mechanisms[i]);
@@ -114,7 +116,7 @@ TEST_CASE("tongues of a system begin at the resonances at zero excitation", "[ch
   }
 }
 
-TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart][tongues][slow]") {
+TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart][tongues][ratchet][slow]") {
   const auto curves = tongue_curves(coupled_pendulums(), {"linear.period", 4.6, 7.6}, kOver,
                                     {.tolerance = 1e-8, .chord = 2e-3});
   std::vector<double> found;
@@ -125,7 +127,8 @@ TEST_CASE("thin tongues of higher order are joined to their resonances", "[chart
   const double resonances[] = {4.0 * pi / (kSlow + kFast), 2.0 * pi / kSlow, 3.0 * pi / kFast,
                                6.0 * pi / (kSlow + kFast)};
   REQUIRE(found.size() == 4);
-  for (std::size_t i = 0; i < 4; ++i) CHECK(found[i] == Approx(resonances[i]).epsilon(1e-13).margin(0.0));
+  for (std::size_t i = 0; i < 4; ++i)
+    check_close("resonance of higher order of a system at rest (relative)", found[i], resonances[i], 8e-16);
 }
 
 }  // namespace strutt::test::system_curves_test

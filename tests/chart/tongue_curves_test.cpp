@@ -7,6 +7,7 @@
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::tongue_curves_test {
 namespace {
@@ -42,7 +43,7 @@ Margin margin_at(double delta, double epsilon, double damping) {
 
 }  // namespace
 
-TEST_CASE("curves of Mathieu's tongues are the characteristic values", "[chart][tongues]") {
+TEST_CASE("curves of Mathieu's tongues are the characteristic values", "[chart][tongues][ratchet]") {
   const auto curves =
       tongue_curves(mathieu_scene(0.0), {"mathieu.delta", -6.0, 9.5}, {"mathieu.epsilon", 0.1, 5.0});
   for (int n = 0; n <= 5; ++n) {
@@ -51,7 +52,8 @@ TEST_CASE("curves of Mathieu's tongues are the characteristic values", "[chart][
     for (const CurvePoint& p : points) {
       const auto pair = characteristic_values(n, n, 2.0 * p.over).front();
       const double expected = 0.25 * (p.kind == CurvePoint::Kind::upper ? pair.a.value : pair.b->value);
-      CHECK(std::abs(p.along - expected) <= 1e-14 * std::max(1.0, std::abs(expected)));
+      check_within("curve of a tongue of Mathieu's equation over max(1; |delta|)",
+                   std::abs(p.along - expected) / std::max(1.0, std::abs(expected)), 8e-16);
     }
   }
   CHECK(std::ranges::count_if(curves, [](const auto& c) { return c.order == 3; }) == 2);
@@ -80,18 +82,21 @@ TEST_CASE("between its points a curve is as straight as was asked for", "[chart]
   }
 }
 
-TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues][slow]") {
+TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues][ratchet][slow]") {
   const double c = 0.05;
   const auto curves =
       tongue_curves(mathieu_scene(c), {"mathieu.delta", -0.5, 5.0}, {"mathieu.epsilon", 0.0, 5.0});
   const auto tips = tips_of(curves);
   REQUIRE(tips.size() >= 3);
   // n = 1: epsilon = c, n = 2: epsilon^2/2 = 2 c, each to lowest order
-  CHECK(tips[0].over == Approx(c).epsilon(2e-3));
-  CHECK(tips[0].along == Approx(0.25).epsilon(1e-2));
-  CHECK(tips[1].over == Approx(std::sqrt(4.0 * c)).epsilon(0.1));
+  check_close("excitation at the tip of damped tongue 1 against first order (relative)", tips[0].over, c,
+              0.0015);
+  check_close("place of the tip of damped tongue 1 against first order (relative)", tips[0].along, 0.25,
+              0.004);
+  check_close("excitation at the tip of damped tongue 2 against second order (relative)", tips[1].over,
+              std::sqrt(4.0 * c), 0.08);
   for (const CurvePoint& tip : tips) {
-    CHECK(tip.error <= 1e-12);
+    check_within("bound of a tip of a damped tongue", tip.error, 3e-13);
     CHECK(tip.outcome == Outcome::converged);
     // no instability below it, near it; instability above it
     double below = HUGE_VAL, above = HUGE_VAL;
@@ -115,7 +120,8 @@ TEST_CASE("tips of damped tongues are their least excitation", "[chart][tongues]
   }
 }
 
-TEST_CASE("without damping a tongue begins with a tip where nothing is excited", "[chart][tongues]") {
+TEST_CASE("without damping a tongue begins with a tip where nothing is excited",
+          "[chart][tongues][ratchet]") {
   const auto check = [](const Scene& scene, const TongueLine& along, const TongueLine& over, double rest,
                         const auto& resonance) {
     const auto curves = tongue_curves(scene, along, over);
@@ -126,8 +132,9 @@ TEST_CASE("without damping a tongue begins with a tip where nothing is excited",
       const auto tips = tips_of({{n, points}});
       REQUIRE(tips.size() == 1);
       CHECK(tips[0].over == rest);
-      CHECK(std::abs(tips[0].along - resonance(n)) <= 1e-15 * std::max(1.0, resonance(n)));
-      CHECK(tips[0].error <= 1e-14);
+      check_within("tip of a tongue at rest over max(1; its place)",
+                   std::abs(tips[0].along - resonance(n)) / std::max(1.0, resonance(n)), 6e-16);
+      check_within("bound of a tip of a tongue at rest", tips[0].error, 4e-15);
       CHECK(tips[0].outcome == Outcome::converged);
       CHECK(points.front().kind != points.back().kind);
       CHECK(std::ranges::count(points, rest, &CurvePoint::over) == 1);
@@ -153,7 +160,7 @@ TEST_CASE("without damping a tongue begins with a tip where nothing is excited",
   CHECK(tips_of(tongue_curves(mathieu_scene(0.0), delta, {"mathieu.epsilon", -0.25, 0.5})).empty());
 }
 
-TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongues][slow]") {
+TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongues][ratchet][slow]") {
   // the upper edge of tongue 2, a_2(2 epsilon)/4, has a maximum
   const auto curves =
       tongue_curves(mathieu_scene(0.0), {"mathieu.epsilon", 0.1, 8.0}, {"mathieu.delta", 0.5, 3.0});
@@ -166,8 +173,8 @@ TEST_CASE("curves turn back wherever the second parameter does", "[chart][tongue
   for (const CurvePoint& tip : tips_of(curves)) {
     if (std::abs(tip.over - most) > 1e-6) continue;
     found = true;
-    CHECK(tip.over == Approx(most).epsilon(1e-9));
-    CHECK(tip.along == Approx(where).epsilon(1e-3));
+    check_close("turning point of an edge of tongue 2 (relative)", tip.over, most, 8e-11);
+    check_close("excitation at the turning point of an edge of tongue 2 (relative)", tip.along, where, 2e-5);
   }
   CHECK(found);
 }

@@ -45,7 +45,7 @@ TEST_CASE("along delta the tongues are those of Mathieu's equation", "[chart][to
   const auto known = characteristic_values(0, 12, 2.0 * epsilon);
   REQUIRE(edges.size() == 25);
   CHECK(edges[0].upper);
-  CHECK(edges[0].position == Approx(known[0].a.value / 4.0).epsilon(1e-14));
+  check_close("edge of a tongue along a line (relative)", edges[0].position, known[0].a.value / 4.0, 1e-15);
   CHECK(std::isnan(edges[0].width));
   for (std::size_t n = 1; n <= 12; ++n) {
     const TongueEdge &low = edges[2 * n - 1], &high = edges[2 * n];
@@ -57,12 +57,12 @@ TEST_CASE("along delta the tongues are those of Mathieu's equation", "[chart][to
                    1e-15);
     CHECK(low.outcome == Outcome::converged);
     CHECK(low.width == high.width);
-    CHECK(low.width_relative_error <= 1e-10);
+    check_within("bound of a width along a line (relative)", low.width_relative_error, 5e-12);
   }
 }
 
 TEST_CASE("the width in another parameter is that in delta over the slope",
-          "[chart][tongues][extreme][N06]") {
+          "[chart][tongues][extreme][N06][ratchet]") {
   // frequency = delta^(-1/2), so that the width is |d frequency/d delta| w where w is small
   const auto edges = tongues(pendulum_scene(0.0981, 1.0), {"support.frequency", 0.15, 3.0});
   const auto v = PeriodicFunction::fourier(0.0, {{1, 0.01, 0.0}});
@@ -72,8 +72,9 @@ TEST_CASE("the width in another parameter is that in delta over the slope",
     const TongueEdges mean = tongue_edges(v, edge.order, edge.order).front();
     const double expected = tongue_width(v, mean).value / (2.0 * std::pow(mean.upper.value, 1.5));
     CHECK(std::abs(edge.width / expected - 1.0) <= edge.width_relative_error + 1e-13);
-    CHECK(edge.width_relative_error <= 1e-10);
-    CHECK(edge.position == Approx(1.0 / std::sqrt(mean.upper.value)).epsilon(1e-14));
+    check_within("N06 bound of a width in another parameter (relative)", edge.width_relative_error, 2e-12);
+    check_close("N06 edge in another parameter (relative)", edge.position, 1.0 / std::sqrt(mean.upper.value),
+                3e-15);
     ++narrow;
   }
   CHECK(narrow == 18);  // both edges of n = 5 ... 13
@@ -104,18 +105,21 @@ TEST_CASE("the verdict changes at each edge and nowhere else", "[chart][tongues]
   check(pendulum_scene(0.5, 20.0, Equilibrium::inverted), {"support.amplitude", 0.2, 8.0});
 }
 
-TEST_CASE("the largest growth of a tongue is found, narrow or wide", "[chart][tongues]") {
+TEST_CASE("the largest growth of a tongue is found, narrow or wide", "[chart][tongues][ratchet]") {
   // to lowest order pi w/n: at epsilon = 1e-4 and, n = 1, w = epsilon, up to terms of order epsilon^2
   const auto narrow = tongues(mathieu_scene(1.0, 1e-4), {"mathieu.delta", 0.1, 5.0}, {.growth = true});
   REQUIRE(narrow.size() == 8);
   for (const TongueEdge& edge : narrow) {
-    CHECK(edge.growth == Approx(3.141592653589793 * edge.width / edge.order).epsilon(2e-6).margin(0.0));
-    CHECK(edge.growth_position == Approx(0.25 * edge.order * edge.order).epsilon(1e-6));
+    check_close("largest growth of a thin tongue against first order (relative)", edge.growth,
+                3.141592653589793 * edge.width / edge.order, 8e-9);
+    check_close("place of the largest growth of a thin tongue against first order (relative)",
+                edge.growth_position, 0.25 * edge.order * edge.order, 5e-8);
   }
   // just wide enough for the monodromy matrix
   for (const TongueEdge& edge :
        tongues(mathieu_scene(1.0, 3e-7), {"mathieu.delta", 0.1, 0.5}, {.growth = true}))
-    CHECK(edge.growth == Approx(3.141592653589793 * edge.width).epsilon(2e-6).margin(0.0));
+    check_close("largest growth of a tongue next to the narrow form against first order (relative)",
+                edge.growth, 3.141592653589793 * edge.width, 2.5e-11);
   const Scene scene = mathieu_scene(1.0, 1.5);
   MonodromyEngine engine;
   for (const TongueEdge& edge : tongues(scene, {"mathieu.delta", -3.0, 3.0}, {.growth = true})) {
@@ -130,7 +134,7 @@ TEST_CASE("the largest growth of a tongue is found, narrow or wide", "[chart][to
   }
 }
 
-TEST_CASE("a line may meet a tongue more than once", "[chart][tongues]") {
+TEST_CASE("a line may meet a tongue more than once", "[chart][tongues][ratchet]") {
   const auto edges = tongues(mathieu_scene(0.35, 0.0), {"mathieu.epsilon", -1.0, 1.0}, {.count = 2});
   std::vector<TongueEdge> first;
   for (const TongueEdge& edge : edges)
@@ -140,7 +144,8 @@ TEST_CASE("a line may meet a tongue more than once", "[chart][tongues]") {
   CHECK(first[0].upper);
   CHECK(first[1].crossing == 1);
   CHECK_FALSE(first[1].upper);
-  CHECK(first[0].position == Approx(-first[1].position).epsilon(1e-14));
+  check_close("edges on both sides of zero against each other (relative)", first[0].position,
+              -first[1].position, 8e-16);
 }
 
 TEST_CASE("a tip on the end of the line is an edge there", "[chart][tongues][slow]") {
@@ -151,7 +156,7 @@ TEST_CASE("a tip on the end of the line is an edge there", "[chart][tongues][slo
   REQUIRE(second.size() == 2);
   CHECK(second[0].position == 0.0);
   CHECK(second[0].error == 0.0);
-  CHECK(second[1].width == Approx(second[1].position));
+  CHECK(second[1].width == second[1].position);
   for (const TongueEdge& edge : edges) CHECK(edge.outcome == Outcome::converged);
 }
 
@@ -174,7 +179,7 @@ TEST_CASE("a line may pass the tip of a tongue", "[chart][tongues]") {
     CHECK(std::abs(edge.position) <= edge.error);
 }
 
-TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][N08]") {
+TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][N08][ratchet]") {
   Scene scene;
   scene.hill = HillTable{.period = 2.0 * 3.141592653589793, .harmonics = {{1, 1.0, 0.0}, {2, 0.5, 0.0}}};
   const auto edges = tongues(scene, {"hill.mean", 0.5, 1.9});
@@ -183,13 +188,15 @@ TEST_CASE("a closed tongue is a pair without width", "[chart][tongues][extreme][
   CHECK(std::isnan(edges[0].width));
   CHECK(edges[1].order == 2);
   CHECK(edges[1].width_relative_error == 1.0);
-  CHECK(edges[1].width < 1e-14);  // the period is 2 pi but for a rounding, and it counts
-  CHECK(edges[2].position - edges[1].position <= 1e-12);
+  check_within("N08 bound of the width of a closed tongue along a line", edges[1].width,
+               2.5e-15);  // the period is 2 pi but for a rounding, and it counts
+  check_within("N08 distance of the edges of a closed tongue along a line",
+               edges[2].position - edges[1].position, 3e-15);
   CHECK(edges[1].outcome == Outcome::converged);
 }
 
 TEST_CASE("a tongue that falls between the points of a grid is in the list",
-          "[chart][tongues][extreme][N52]") {
+          "[chart][tongues][extreme][N52][ratchet]") {
   // at epsilon = 0.1 tongues 4 and on are narrower than 1e-6: no cell of 1000 is inside one
   const Scene scene = mathieu_scene(1.0, 0.1);
   const TongueLine line{"mathieu.delta", 3.5, 13.0};
@@ -205,7 +212,8 @@ TEST_CASE("a tongue that falls between the points of a grid is in the list",
     CHECK(edges[k].order == 4 + static_cast<int>(k) / 2);
     CHECK(edges[k].width > 0.0);
     CHECK(edges[k].width < 1e-6);
-    CHECK(edges[k].width_relative_error <= 1e-10);
+    check_within("N52 bound of a width between the points of a grid (relative)",
+                 edges[k].width_relative_error, 6e-12);
   }
 }
 

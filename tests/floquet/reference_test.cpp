@@ -90,7 +90,7 @@ TEST_CASE("The error bound is above the true error and sharp on the reference ta
   CHECK(tally.converged >= share * tally.rows / 10);
 }
 
-TEST_CASE("Trace of the Mathieu equation at (1, 0.5)", "[floquet][reference]") {
+TEST_CASE("Trace of the Mathieu equation at (1, 0.5)", "[floquet][reference][ratchet]") {
   MonodromyEngine engine;
   const double trace = 2.021314397416841636175261493894996;  // tests/reference/mathieu.csv, first row
   for (const Method method : {Method::arkode, Method::cvode, Method::propagator}) {
@@ -98,7 +98,8 @@ TEST_CASE("Trace of the Mathieu equation at (1, 0.5)", "[floquet][reference]") {
     CHECK(std::abs(result.discriminant - trace) <= result.error * std::max(1.0, result.matrix.cwiseAbs().maxCoeff()));
     if (method != Method::cvode) {
       CHECK(result.outcome == Outcome::converged);
-      CHECK(std::abs(result.discriminant - trace) <= 1e-12);
+      check_within("D of Mathieu's equation at (1 0.5) by ARKODE and Taylor series at tolerance 1e-12",
+                   std::abs(result.discriminant - trace), 8e-15);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "strutt/floquet/stability.hpp"
 #include "strutt/floquet/tongue_width.hpp"
+#include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
 namespace strutt::test::square_wave_test {
@@ -32,14 +33,16 @@ Real discriminant(const Real& mean, const Real& amplitude) {
 
 }  // namespace
 
-TEST_CASE("edges of Meissner's tongues are where |D| = 2, within their errors", "[floquet][tongues]") {
+TEST_CASE("edges of Meissner's tongues are where |D| = 2, within their errors",
+          "[floquet][tongues][ratchet]") {
   for (const double amplitude : {1e-3, 0.3, 0.5, 2.0, 7.5, 40.0})
     for (const TongueEdges& edges : tongue_edges(square(amplitude), 0, 12)) {
       const Real side = edges.order % 2 == 0 ? 1 : -1;
       const auto excess = [&](double mean) { return Real(side * discriminant(mean, amplitude) - 2); };
       const auto check = [&](const CharacteristicValue& edge, int sign_above) {
         CAPTURE(amplitude, edges.order, edge.value, edge.error);
-        CHECK(edge.error <= 1e-15 + 2e-14 * (std::abs(edge.value) + amplitude));
+        check_within("bound of an edge of Meissner's equation over 1/20 + |edge| + A",
+                     edge.error / (0.05 + std::abs(edge.value) + amplitude), 2e-14);
         const TongueWidth width =
             edges.order > 0 ? tongue_width(square(amplitude), edges) : TongueWidth{1.0, 0.0};
         if (width.value < 4.0 * edge.error) return;
@@ -84,14 +87,17 @@ TEST_CASE("verdicts of the references with square waves follow from the edges",
   CHECK(checked >= 10);
 }
 
-TEST_CASE("widths of Meissner's tongues keep their relative accuracy", "[floquet][tongues][extreme][N06]") {
+TEST_CASE("widths of Meissner's tongues keep their relative accuracy",
+          "[floquet][tongues][extreme][N06][ratchet]") {
   // first order: the amplitude 4 A/(pi n) of harmonic n for odd n; D(mean) = 2 at second order for even n
   for (const double amplitude : {1e-3, 1e-6, 1e-12, 1e-100, 1e-300})
     for (const int n : {1, 3, 7}) {
       const TongueWidth width =
           tongue_width(square(amplitude), tongue_edges(square(amplitude), n, n).front());
-      CHECK(width.value == Approx(4.0 * amplitude / (pi * n)).epsilon(4.0 * amplitude + 1e-14).margin(0.0));
-      CHECK(width.relative_error <= 1e-11);
+      const double first = 4.0 * amplitude / (pi * n);
+      check_within("N06 width of Meissner's odd tongues: difference from first order over A + 2.5e-15",
+                   std::abs(width.value / first - 1.0) / (amplitude + 2.5e-15), 0.3);
+      check_within("N06 bound of a width of Meissner's odd tongues (relative)", width.relative_error, 8e-14);
     }
   // n = 2 at A = 1e-4 and 1e-2: both zeros of D - 2 by Newton's method in 50 digits
   for (const double amplitude : {1e-4, 1e-2})
@@ -111,11 +117,12 @@ TEST_CASE("widths of Meissner's tongues keep their relative accuracy", "[floquet
       const Real exact = zero(edges.upper.value + apart / 8) - zero(edges.lower->value - apart / 8);
       CAPTURE(amplitude, n, width.value, width.relative_error);
       CHECK(abs(Real(width.value) / exact - 1) <= width.relative_error);
-      CHECK(width.relative_error <= 1e-9);
+      check_within("N06 bound of a width of Meissner's even tongues (relative)", width.relative_error, 2e-14);
     }
 }
 
-TEST_CASE("Meissner's closed tongues are intervals that hold 0", "[floquet][tongues][extreme][N08]") {
+TEST_CASE("Meissner's closed tongues are intervals that hold 0",
+          "[floquet][tongues][extreme][N08][ratchet]") {
   // sqrt(mean + A) = 3, sqrt(mean - A) = 1: both pieces turn by whole half turns, n = 4
   for (const auto& [mean, amplitude, n] : {std::tuple{5.0, 4.0, 4}, {13.0, 12.0, 6}, {17.0, 8.0, 8}}) {
     const TongueEdges edges = tongue_edges(square(amplitude), n, n).front();
@@ -124,11 +131,11 @@ TEST_CASE("Meissner's closed tongues are intervals that hold 0", "[floquet][tong
     CHECK(std::abs(edges.lower->value - mean) <= edges.lower->error);
     CHECK(std::abs(edges.upper.value - mean) <= edges.upper.error);
     CHECK(width.relative_error == 1.0);
-    CHECK(width.value < 1e-13);
+    check_within("N08 bound of the width of a closed tongue of Meissner's equation", width.value, 1.5e-14);
   }
 }
 
-TEST_CASE("growth in narrow tongues of Meissner's equation", "[floquet][tongues]") {
+TEST_CASE("growth in narrow tongues of Meissner's equation", "[floquet][tongues][ratchet]") {
   MonodromyEngine engine;
   for (const int n : {1, 2, 5}) {
     const double amplitude = 1e-3;
@@ -138,7 +145,9 @@ TEST_CASE("growth in narrow tongues of Meissner's equation", "[floquet][tongues]
     const double middle = 0.5 * (edges.lower->value + edges.upper.value);
     const auto s =
         analyse(engine, hill_equation(2.0 * pi, square(amplitude).plus(middle)), {.tolerance = 1e-13});
-    CHECK(growth == Approx(s.growth).epsilon(1e-5).margin(0.0));
+    check_close(
+        "growth in a narrow tongue of Meissner's equation: closed form against multipliers (relative)",
+        growth, s.growth, 6e-6);
   }
 }
 

@@ -89,7 +89,7 @@ TEST_CASE("Lame's equation has exactly n open gaps, with the known edges",
                                           [](double a, double b) { return b - a < 1e-9 * b; }, steps);
     const auto closed = at(lame(n, k, 0.5 * (below + above)));
     CHECK(closed.verdict != Verdict::unstable);
-    CHECK(std::abs(closed.margin) < 1e-16);
+    check_within("N08 margin in the closed gaps of Lame's equation", std::abs(closed.margin), 1e-16);
     for (const double distance : {-1e-3, -1e-5, 1e-5, 1e-3}) {
       CHECK(at(lame(n, k, below + distance)).verdict == Verdict::stable);
     }
@@ -124,15 +124,17 @@ TEST_CASE("Meissner's equation agrees with its closed form by both routes",
   }
 }
 
-TEST_CASE("Entries beyond 1e300 are given with a scale", "[floquet][extreme][N01]") {
+TEST_CASE("Entries beyond 1e300 are given with a scale", "[floquet][extreme][N01][ratchet]") {
   const auto result = at(mathieu_delta_epsilon(-1.4e4, 0.0));  // exp(743)
   CHECK(result.log_scale > 0.0);
   CHECK(result.matrix.allFinite());
   CHECK(result.matrix.cwiseAbs().maxCoeff() > 0.1);
   const double growth = 2.0 * std::numbers::pi * std::sqrt(1.4e4);
-  CHECK(result.growth == Approx(growth).epsilon(1e-15));
-  CHECK(std::log(result.discriminant) + result.log_scale == Approx(growth).epsilon(1e-14));
-  CHECK(std::log(result.multipliers[0].real()) + result.log_scale == Approx(growth).epsilon(1e-14));
+  check_close("N01 growth up to exp(743) (relative)", result.growth, growth, 8e-16);
+  check_close("N01 logarithm of D and of a multiplier up to exp(743) (relative)",
+              std::log(result.discriminant) + result.log_scale, growth, 8e-16);
+  check_close("N01 logarithm of D and of a multiplier up to exp(743) (relative)",
+              std::log(result.multipliers[0].real()) + result.log_scale, growth, 8e-16);
   CHECK(at(mathieu_delta_epsilon(-1.0, 0.0)).log_scale == 0.0);
 }
 
@@ -149,7 +151,8 @@ TEST_CASE("SI and canonical scenes of one rod give the same verdict and growth",
     const auto reference = at(canonical);
     CHECK(si.verdict == reference.verdict);
     check_close("growth in SI and canonical units (relative)", si.growth, reference.growth, 8e-16);
-    CHECK(si.growth_per_time == Approx(si.growth * omega / (2.0 * std::numbers::pi)).epsilon(1e-14));
+    check_close("growth per time against growth per period (relative)", si.growth_per_time,
+                si.growth * omega / (2.0 * std::numbers::pi), 8e-16);
     check_close("winding in SI and canonical units (relative)", si.winding, reference.winding, 8e-16);
     check_close("m12 in SI and canonical units (relative)", si.matrix(0, 1) * omega, reference.matrix(0, 1),
                 1.5e-15);

@@ -9,6 +9,7 @@
 #include "strutt/base/error.hpp"
 #include "strutt/free_pendulum/normal_form.hpp"
 #include "strutt/free_pendulum/period_formulas.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::krylov_test {
 
@@ -50,7 +51,7 @@ double pendulum_angle(double amplitude, double time) {
 
 }  // namespace
 
-TEST_CASE("(22) and (31) are one function of the amplitude", "[free_pendulum][paper]") {
+TEST_CASE("(22) and (31) are one function of the amplitude", "[free_pendulum][paper][ratchet]") {
   for (const double alpha : {1.0, 3.0}) {
     const auto field = [&](const Jet& phi, const Jet& velocity) {
       return JetPair{velocity, -alpha * alpha * sin(phi)};
@@ -58,12 +59,14 @@ TEST_CASE("(22) and (31) are one function of the amplitude", "[free_pendulum][pa
     const NormalForm form = normal_form(taylor_expansion(field, {0.0, 0.0}));
     for (double amplitude = 0.0; amplitude < 3.9; amplitude += 0.1) {
       const KrylovMotion motion(KrylovVariant::frequency, alpha, amplitude);
-      CHECK(normal_form_period(form, amplitude) == Approx(motion.period()).epsilon(1e-13));
+      check_close("formula (22) against (31) (relative)", normal_form_period(form, amplitude),
+                  motion.period(), 1.5e-15);
     }
   }
 }
 
-TEST_CASE("errors of both formulas are those against the elliptic integral", "[free_pendulum][reference]") {
+TEST_CASE("errors of both formulas are those against the elliptic integral",
+          "[free_pendulum][reference][ratchet]") {
   for (const KrylovVariant variant : kBoth) {
     for (double amplitude = 0.05; amplitude < 2.82; amplitude += 0.05) {
       const FormulaError formula = formula_of_amplitude(
@@ -71,8 +74,11 @@ TEST_CASE("errors of both formulas are those against the elliptic integral", "[f
           amplitude);
       const Real exact = pendulum_ratio(amplitude), own = Real(amplitude) * amplitude;
       const Real ratio = variant == KrylovVariant::frequency ? 1 / (1 - own / 16) : 1 / sqrt(1 - own / 8);
-      CHECK(abs(Real(formula.relative_error) - (ratio / exact - 1)) <= 1e-15 * ratio);
-      CHECK(abs(Real(formula.ratio) / ratio - 1) <= 4 * 2.3e-16);
+      check_within("error of a formula against the elliptic integral over its ratio",
+                   static_cast<double>(Real(abs(Real(formula.relative_error) - (ratio / exact - 1)) / ratio)),
+                   8e-17);
+      check_within("ratio by a formula (relative)",
+                   static_cast<double>(Real(abs(Real(formula.ratio) / ratio - 1))), 8e-16);
     }
   }
 }
@@ -92,7 +98,8 @@ TEST_CASE("the paper's formula is off by what the issue tells", "[free_pendulum]
           std::abs(error(amplitude)));
 }
 
-TEST_CASE("the waveform obeys (24), (25) and leaves terms of fifth order", "[free_pendulum][order]") {
+TEST_CASE("the waveform obeys (24), (25) and leaves terms of fifth order",
+          "[free_pendulum][order][ratchet]") {
   for (const KrylovVariant variant : kBoth) {
     const auto worst = [&](double amplitude) {
       const KrylovMotion motion(variant, 1.0, amplitude);
@@ -101,39 +108,44 @@ TEST_CASE("the waveform obeys (24), (25) and leaves terms of fifth order", "[fre
         largest = std::max(largest, std::abs(motion.angle(time) - pendulum_angle(amplitude, time)));
       return largest;
     };
-    CHECK(std::log2(worst(0.4) / worst(0.2)) == Approx(5.0).margin(0.15));
+    check_within("order of Krylov's waveform: measured against expected",
+                 std::abs(std::log2(worst(0.4) / worst(0.2)) - 5.0), 0.08);
     const KrylovMotion motion(variant, 2.0, 0.7);
     CHECK(motion.angle(0.0) == 0.7);
     CHECK(motion.velocity(0.0) == 0.0);
-    CHECK(motion.angle(motion.period() / 2) == Approx(-0.7).epsilon(1e-14));
+    check_close("half a period of Krylov's waveform (relative)", motion.angle(motion.period() / 2), -0.7,
+                8e-16);
     const double h = 1e-4, time = 0.3;
-    CHECK((motion.angle(time + h) - motion.angle(time - h)) / (2 * h) ==
-          Approx(motion.velocity(time)).epsilon(1e-7));
+    check_close("velocity of Krylov's waveform against differences (relative)",
+                (motion.angle(time + h) - motion.angle(time - h)) / (2 * h), motion.velocity(time), 2e-8);
   }
 }
 
-TEST_CASE("the cubic truncation has its own period up to sqrt(6)", "[free_pendulum][reference]") {
-  for (double amplitude = 0.0; amplitude < 2.449; amplitude += 0.031)
-    CHECK(abs(Real(cubic_period_ratio(amplitude)) / cubic_ratio(amplitude) - 1) <= 4 * 2.3e-16);
-  for (const double below : {1e-3, 1e-8, 1e-15, 0.0}) {
-    const double amplitude = cubic_separatrix() - below;
-    CHECK(abs(Real(cubic_period_ratio(amplitude)) / cubic_ratio(amplitude) - 1) <= 4 * 2.3e-16);
-  }
+TEST_CASE("the cubic truncation has its own period up to sqrt(6)", "[free_pendulum][reference][ratchet]") {
+  const auto check = [](double amplitude) {
+    const Real error = abs(Real(cubic_period_ratio(amplitude)) / cubic_ratio(amplitude) - 1);
+    check_within("ratio of the cubic truncation (relative)", static_cast<double>(error), 6e-16);
+  };
+  for (double amplitude = 0.0; amplitude < 2.449; amplitude += 0.031) check(amplitude);
+  for (const double below : {1e-3, 1e-8, 1e-15, 0.0}) check(cubic_separatrix() - below);
   CHECK(cubic_period_ratio(1e-200) == 1.0);
 }
 
-TEST_CASE("linear amplitude: its cost against the energy", "[free_pendulum][paper]") {
-  CHECK(linear_amplitude(2.0, 0.3, 0.8) == Approx(0.5).epsilon(1e-15));
+TEST_CASE("linear amplitude: its cost against the energy", "[free_pendulum][paper][ratchet]") {
+  check_close("linear amplitude (relative)", linear_amplitude(2.0, 0.3, 0.8), 0.5, 8e-16);
   // Started from phi = 0 the velocity 2 alpha sin(A/2) belongs to the amplitude A.
   for (const double amplitude : {0.1, 0.2}) {
     const double r = linear_amplitude(1.0, 0.0, 2.0 * std::sin(amplitude / 2.0));
-    CHECK((amplitude - r) / std::pow(amplitude, 3) == Approx(1.0 / 24.0).epsilon(0.01));
+    check_close("linear amplitude against the first term of its series (relative)",
+                (amplitude - r) / std::pow(amplitude, 3), 1.0 / 24.0, 0.0015);
     const Real exact = pendulum_ratio(amplitude);
     const double by_r =
         (Real(krylov_period_ratio(KrylovVariant::frequency, r)) / exact - 1).convert_to<double>();
     const double by_a = formula_of_amplitude(PeriodMethod::krylov, amplitude).relative_error;
-    CHECK(by_a / std::pow(amplitude, 4) == Approx(1.0 / 3072.0).epsilon(0.02));
-    CHECK((by_r - by_a) / std::pow(amplitude, 4) == Approx(-1.0 / 192.0).epsilon(0.02));
+    check_close("period by an amplitude against the first term of its series (relative)",
+                by_a / std::pow(amplitude, 4), 1.0 / 3072.0, 0.005);
+    check_close("period by an amplitude against the first term of its series (relative)",
+                (by_r - by_a) / std::pow(amplitude, 4), -1.0 / 192.0, 0.005);
   }
 }
 

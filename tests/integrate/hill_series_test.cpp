@@ -119,7 +119,8 @@ bool same(const HillPropagators& a, std::size_t i, const HillPropagators& b, std
 
 }  // namespace
 
-TEST_CASE("halving the step divides the error by 2^(2 terms - 4)", "[integrate][series][order][simd]") {
+TEST_CASE("halving the step divides the error by 2^(2 terms - 4)",
+          "[integrate][series][order][simd][ratchet]") {
   const auto points = scattered(40, {-1.0, 0.0}, {5.0, 6.0}, 1);
   for (const int terms : {4, 5, 6, 8}) {
     const int steps = terms == 8 ? 6 : 24;
@@ -130,7 +131,8 @@ TEST_CASE("halving the step divides the error by 2^(2 terms - 4)", "[integrate][
       coarse += error_of(a, i, truth, kappa_of(points[i].delta));
       fine += error_of(b, i, truth, kappa_of(points[i].delta));
     }
-    CHECK(std::log2(coarse / fine) == Approx(2 * terms - 4).margin(0.75));
+    check_within("order of the series of Hill's equation: measured against expected",
+                 std::abs(std::log2(coarse / fine) - (2 * terms - 4)), 0.3);
   }
 }
 
@@ -264,7 +266,7 @@ TEST_CASE("growth beyond the range of double stays in the exponent",
     const double growth = std::log(r.u1[0]) + static_cast<double>(r.exponent[0]) * std::numbers::ln2;
     check_close("N01 logarithm of an entry of up to exp(3141) (relative)", growth,
                 kPi * std::sqrt(-delta) - std::numbers::ln2, 1e-15);
-    CHECK(r.u1_error[0] <= 1e-9 * r.u1[0]);
+    check_within("N01 bound of an entry of up to exp(3141) (relative)", r.u1_error[0] / r.u1[0], 4e-11);
   }
 }
 

@@ -133,7 +133,8 @@ TEST_CASE("many times in one call keep the bound, in any order", "[integrate][mo
   }
 }
 
-TEST_CASE("the power balance of the shaken pendulum with moment and damping holds", "[integrate][motion]") {
+TEST_CASE("the power balance of the shaken pendulum with moment and damping holds",
+          "[integrate][motion][ratchet]") {
   auto body = PhysicalPendulum::uniform_rod(2.0, 0.7);
   body.damping = 0.3;
   const Excitation support{9.0, PeriodicFunction::fourier(0.0, {{1, 0.0, 0.05}, {3, 0.01, 0.0}})};
@@ -171,7 +172,8 @@ TEST_CASE("the power balance of the shaken pendulum with moment and damping hold
         moment.value(p.t) * p.velocity - body.damping * body.inertia * p.velocity * p.velocity;
     work += 0.5 * end / intervals * weight[(j - 2) % 5] * power;
   }
-  CHECK(energy(motion.points[1]) - energy(motion.points[0]) == Approx(work).epsilon(1e-10));
+  check_close("power balance of a driven pendulum (relative)",
+              energy(motion.points[1]) - energy(motion.points[0]), work, 8e-14);
 }
 
 TEST_CASE("the free pendulum keeps its first integral and its bound over many periods",
@@ -187,7 +189,7 @@ TEST_CASE("the free pendulum keeps its first integral and its bound over many pe
   }
 }
 
-TEST_CASE("starts at the equilibria", "[integrate][motion]") {
+TEST_CASE("starts at the equilibria", "[integrate][motion][ratchet]") {
   const std::array times{0.0, 1.0, 5.0, 12.0};
   for (const auto& point : integrate_motion(kRod, nullptr, nullptr, {0.0, 0.0}, times, {}).points) {
     CHECK(point.angle == 0.0);
@@ -201,9 +203,9 @@ TEST_CASE("starts at the equilibria", "[integrate][motion]") {
   CHECK(fall[0].angle == std::numbers::pi);
   for (const auto& point : fall) CHECK(point.outcome == Outcome::converged);
   const double grown = rest * std::cosh(kRod.alpha() * 5.0);
-  CHECK(fall[2].angle - std::numbers::pi == Approx(grown).epsilon(1e-6));
-  CHECK(std::abs(fall[2].energy) < 1e-20);
-  CHECK(fall[3].energy == Approx(-rest * rest).margin(1e-9));
+  check_close("fall from the double next to pi (relative)", fall[2].angle - std::numbers::pi, grown, 4e-8);
+  check_within("energy of the fall from the double next to pi", std::abs(fall[2].energy), 1e-20);
+  check_within("energy of a fall from the top after turns", std::abs(fall[3].energy + rest * rest), 8e-14);
 }
 
 TEST_CASE("the linear motion has its closed form", "[integrate][motion]") {
@@ -252,53 +254,6 @@ TEST_CASE("a moment without a support drives the pendulum", "[integrate][motion]
   const auto motion = integrate_motion(kRod, nullptr, &moment, {0.0, 0.0}, std::array{t}, options);
   CHECK(std::abs(motion.points[0].angle - expected) <= motion.points[0].error + 1e-14);
   CHECK(motion.points[0].outcome == Outcome::converged);
-}
-
-TEST_CASE("motions that cannot be computed end as outcomes", "[integrate][motion]") {
-  const auto wild = sinusoidal_support(0.3, 7.0);
-  const auto chaos = integrate_motion(kRod, &wild, nullptr, {2.5, 1.0}, std::array{300.0}, {});
-  CHECK(chaos.points[0].outcome == Outcome::tolerance_not_reached);
-  CHECK(chaos.points[0].error > 1e-9);
-  CHECK(std::isfinite(chaos.points[0].angle));
-
-  const auto late =
-      integrate_motion(kRod, nullptr, nullptr, {1.0, 0.0}, std::array{1.0, 1e12}, {.max_steps = 20000});
-  CHECK(late.points[0].outcome == Outcome::converged);
-  CHECK(late.points[1].outcome == Outcome::step_limit);
-  CHECK(std::isnan(late.points[1].angle));
-  CHECK(late.points[1].error == std::numeric_limits<double>::infinity());
-
-  // What no number of steps within the limit can reach is not even begun.
-  for (const double t : {1e12, 1e300, 1e308}) {
-    const auto never = integrate_motion(kRod, &wild, nullptr, {0.1, 0.0}, std::array{0.1, t}, {});
-    CHECK(never.points[0].outcome == Outcome::converged);
-    CHECK(never.points[1].outcome == Outcome::step_limit);
-    CHECK(never.cost.steps < 1000);
-  }
-
-  const std::atomic<bool> cancel{true};
-  const auto stopped =
-      integrate_motion(kRod, nullptr, nullptr, {1.0, 0.0}, std::array{1.0}, {.cancel = &cancel});
-  CHECK(stopped.cancelled);
-  CHECK(stopped.points[0].outcome == Outcome::cancelled);
-
-  const auto fallen = integrate_motion(kRod, nullptr, nullptr, {3.0, 0.0}, std::array{300.0},
-                                       {.linear = true, .about = Equilibrium::inverted});
-  CHECK(fallen.points[0].outcome != Outcome::converged);
-}
-
-TEST_CASE("misuse of a motion throws", "[integrate][motion]") {
-  const auto run = [](const MotionStart& start, double t, const MotionOptions& options) {
-    return integrate_motion(kRod, nullptr, nullptr, start, std::array{t}, options);
-  };
-  CHECK_THROWS_AS(run({NAN, 0.0}, 1.0, {}), InvalidInput);
-  CHECK_THROWS_AS(run({0.0, INFINITY}, 1.0, {}), InvalidInput);
-  CHECK_THROWS_AS(run({0.0, 0.0}, -1.0, {}), InvalidInput);
-  CHECK_THROWS_AS(run({0.0, 0.0}, 1.0, {.tolerance = 1e-14}), InvalidInput);
-  CHECK_THROWS_AS(run({0.0, 0.0}, 1.0, {.method = strutt::Method::exact}), InvalidInput);
-  const auto support = sinusoidal_support(0.1, 3.0);
-  const auto moment = sinusoidal_support(0.1, 4.0);
-  CHECK_THROWS_AS(integrate_motion(kRod, &support, &moment, {}, std::array{1.0}, {}), InvalidInput);
 }
 
 }  // namespace strutt::test::motion_test

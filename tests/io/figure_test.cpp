@@ -117,7 +117,7 @@ TEST_CASE("ticks stand at round numbers of linear, reversed and logarithmic axes
   const auto linear = axis_ticks({"p", -1.0, 5.0, 7, AxisScale::linear});
   REQUIRE(linear.size() == 7);
   CHECK(linear[1].label == "0");
-  CHECK(linear[1].position == Approx(1.0 / 6.0));
+  CHECK(linear[1].position == Approx(1.0 / 6.0).epsilon(1e-14));
   const auto reversed = axis_ticks({"p", 5.0, -1.0, 7, AxisScale::linear});
   CHECK(reversed.back().position == Approx(0.0).margin(1e-12));
   for (const auto& tick : axis_ticks({"p", 1e-3, 1e3, 7, AxisScale::logarithmic})) {

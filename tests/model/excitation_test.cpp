@@ -1,4 +1,5 @@
 #include "strutt/model/excitation.hpp"
+#include "support/ratchet.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
@@ -24,7 +25,7 @@ TEST_CASE("A sinusoidal support is amplitude sin(frequency t + phase)", "[model]
 }
 
 TEST_CASE("A support with square acceleration has r'' = -amplitude frequency^2 sign(sin)",
-          "[model][excitation]") {
+          "[model][excitation][ratchet]") {
   constexpr double kAmplitude = 0.03, kFrequency = 20.0, kTwoPi = 2.0 * std::numbers::pi;
   for (const double phase : {0.0, 1.0, -2.5}) {
     const auto r = square_acceleration_support(kAmplitude, kFrequency, phase);
@@ -39,14 +40,18 @@ TEST_CASE("A support with square acceleration has r'' = -amplitude frequency^2 s
       mean += r.function(theta) / kCount;
       mean_velocity += r.function.derivative()(theta) / kCount;
     }
-    CHECK(largest == Approx(kAmplitude * std::numbers::pi * std::numbers::pi / 8.0).epsilon(1e-6));
+    check_close("largest value of a support with square acceleration at 4000 points (relative)", largest,
+                kAmplitude * std::numbers::pi * std::numbers::pi / 8.0, 8e-7);
     CHECK(largest <= r.function.bound());
-    CHECK(std::abs(mean) < 1e-6 * kAmplitude);
-    CHECK(std::abs(mean_velocity) < 1e-3 * kAmplitude);
+    check_within("mean of a support with square acceleration at 4000 points over the amplitude",
+                 std::abs(mean) / kAmplitude, 5e-15);
+    check_within("mean velocity of a support with square acceleration at 4000 points over the amplitude",
+                 std::abs(mean_velocity) / kAmplitude, 6e-16);
     // value() runs in time: r'' by differences, within a quarter period of a constant acceleration
     const double t = (0.8 - phase) / kFrequency, h = 1e-3;
     const double second = (r.value(t + h) - 2.0 * r.value(t) + r.value(t - h)) / (h * h);
-    CHECK(second == Approx(-kAmplitude * kFrequency * kFrequency).epsilon(1e-8));
+    check_close("acceleration of a support with square acceleration by differences (relative)", second,
+                -kAmplitude * kFrequency * kFrequency, 6e-12);
   }
 }
 

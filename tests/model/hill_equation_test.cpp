@@ -7,6 +7,7 @@
 #include <random>
 
 #include "strutt/base/error.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::hill_equation_test {
 
@@ -28,7 +29,7 @@ double relative_distance(const Real& truth, double value) {
 
 }  // namespace
 
-TEST_CASE("Mathieu's equation in delta and epsilon", "[model][hill_equation]") {
+TEST_CASE("Mathieu's equation in delta and epsilon", "[model][hill_equation][ratchet]") {
   const auto equation = mathieu_delta_epsilon(1.5, -0.4, 0.1);
   CHECK(equation.delta() == 1.5);
   CHECK(equation.epsilon() == 0.4);
@@ -37,11 +38,12 @@ TEST_CASE("Mathieu's equation in delta and epsilon", "[model][hill_equation]") {
   CHECK(equation.period() == kTwoPi);
   CHECK(equation.coefficient_error == 0.0);
   for (const double t : {0.0, 0.4, 2.0, 9.0})
-    CHECK(stiffness(equation, t) == Approx(1.5 - 0.4 * std::cos(t)).epsilon(1e-15));
+    check_close("stiffness of Mathieu's equation in delta and epsilon (relative)", stiffness(equation, t),
+                1.5 - 0.4 * std::cos(t), 8e-16);
 }
 
 TEST_CASE("Mathieu's equation in a and q is delta = a/4, epsilon = |q|/2 over half the time",
-          "[model][hill_equation]") {
+          "[model][hill_equation][ratchet]") {
   for (const double q : {0.7, -0.7, 0.0, 1e-300}) {
     const auto equation = mathieu_a_q(3.0, q, 0.2);
     CHECK(equation.period() == kTwoPi / 2.0);
@@ -49,12 +51,14 @@ TEST_CASE("Mathieu's equation in a and q is delta = a/4, epsilon = |q|/2 over ha
     CHECK(equation.epsilon() == std::abs(q) / 2.0);
     CHECK(equation.canonical_damping() == 0.1);
     for (const double t : {0.0, 0.4, 2.0, 9.0}) {
-      CHECK(stiffness(equation, t) == Approx(3.0 - 2.0 * q * std::cos(2.0 * t)).epsilon(1e-14));
+      check_close("stiffness of Mathieu's equation in a and q (relative)", stiffness(equation, t),
+                  3.0 - 2.0 * q * std::cos(2.0 * t), 8e-16);
     }
   }
 }
 
-TEST_CASE("Hill's equation: canonical coefficients are within coefficient_error", "[model][hill_equation]") {
+TEST_CASE("Hill's equation: canonical coefficients are within coefficient_error",
+          "[model][hill_equation][ratchet]") {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> any(-3.0, 3.0), log_period(-20.0, 20.0);
   const Real pi = acos(Real(-1));
@@ -64,14 +68,16 @@ TEST_CASE("Hill's equation: canonical coefficients are within coefficient_error"
     const auto equation = hill_equation(period, PeriodicFunction::fourier(mean, {first, third}), 0.3);
     const Real square = pow(Real(period) / (2 * pi), 2);
     CHECK(equation.coefficient_error > 0.0);
-    CHECK(equation.coefficient_error < 1e-14);
+    check_within("bound of the coefficients of Hill's equation (relative)", equation.coefficient_error,
+                 3e-15);
     CHECK(relative_distance(mean * square, equation.delta()) <= equation.coefficient_error);
     const auto h = equation.coefficient.harmonics();
     REQUIRE(h.size() == 2);
     CHECK(relative_distance(first.cosine * square, h[0].cosine) <= equation.coefficient_error);
     CHECK(relative_distance(third.sine * square, h[1].sine) <= equation.coefficient_error);
-    CHECK(equation.period() == Approx(period).epsilon(1e-15));
-    CHECK(equation.canonical_damping() == Approx(0.3 * period / kTwoPi).epsilon(1e-15));
+    check_close("period and damping of Hill's equation (relative)", equation.period(), period, 8e-16);
+    check_close("period and damping of Hill's equation (relative)", equation.canonical_damping(),
+                0.3 * period / kTwoPi, 8e-16);
   }
 }
 

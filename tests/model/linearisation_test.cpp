@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::linearisation_test {
 
@@ -30,7 +31,7 @@ double slope(Function f) {
 
 }  // namespace
 
-TEST_CASE("The linear equation is the slope of (7) at the equilibrium", "[model][linearisation]") {
+TEST_CASE("The linear equation is the slope of (7) at the equilibrium", "[model][linearisation][ratchet]") {
   const auto body = rod();
   const std::vector<Excitation> supports = {
       sinusoidal_support(0.05, 11.0, 0.4),
@@ -51,17 +52,19 @@ TEST_CASE("The linear equation is the slope of (7) at the equilibrium", "[model]
         const double w = omega * omega * linear.equation.coefficient(omega * t);
         const double scale =
             body.alpha_squared() * (1.0 + std::abs(r2) / body.gravity) + std::abs(m) / body.inertia;
-        CHECK(std::abs(slope([&](double x) { return phi2(x, 0.7); }) + w) < 1e-11 * scale);
-        CHECK(slope([&](double v) { return phi2(0.0, v); }) ==
-              Approx(-linear.equation.damping).epsilon(1e-11));
+        check_within("slope of (7) at an equilibrium in the angle over its scale",
+                     std::abs(slope([&](double x) { return phi2(x, 0.7); }) + w) / scale, 1.5e-12);
+        check_close("slope of (7) at an equilibrium in the velocity (relative)",
+                    slope([&](double v) { return phi2(0.0, v); }), -linear.equation.damping, 1e-14);
         REQUIRE(linear.forcing);
-        CHECK((*linear.forcing)(omega * t) == Approx(phi2(0.0, 0.0)).margin(1e-14 * scale));
+        check_within("forcing against (7) at an equilibrium over its scale",
+                     std::abs((*linear.forcing)(omega * t) - phi2(0.0, 0.0)) / scale, 8e-16);
       }
     }
   }
 }
 
-TEST_CASE("Canonical delta and epsilon, hanging and inverted", "[model][linearisation]") {
+TEST_CASE("Canonical delta and epsilon, hanging and inverted", "[model][linearisation][ratchet]") {
   // W = +-(delta - epsilon sin tau), delta = alpha^2/omega^2, epsilon = alpha^2 r0/g = 3 r0/(2 l), free of
   // omega
   for (const double omega : {1e-100, 1e-3, 0.7, 12.0, 1e6, 1e150}) {
@@ -76,7 +79,7 @@ TEST_CASE("Canonical delta and epsilon, hanging and inverted", "[model][linearis
       const Real epsilon = -sign_of(about) * 3 * Real(r0) / (2 * Real(l));
       const Real delta = sign_of(about) * 3 * Real(g) / (2 * Real(l)) / (Real(omega) * omega);
       const double allowed = equation.coefficient_error;
-      CHECK(allowed < 1e-14);
+      check_within("bound of the coefficients of a pendulum (relative)", allowed, 3e-15);
       CHECK(abs(Real(harmonics[0].sine) - epsilon) <= allowed * abs(epsilon));
       CHECK(abs(Real(equation.delta()) - delta) <= allowed * abs(delta));
       CHECK(equation.epsilon() == std::abs(harmonics[0].sine));
@@ -94,27 +97,29 @@ TEST_CASE("A point mass has epsilon = r0/l and delta = g/(l omega^2)", "[model][
   CHECK(equation.coefficient.harmonics()[0].cosine == -0.5);
 }
 
-TEST_CASE("Square acceleration of the support gives Meissner's equation", "[model][linearisation]") {
+TEST_CASE("Square acceleration of the support gives Meissner's equation", "[model][linearisation][ratchet]") {
   for (const auto about : {Equilibrium::hanging, Equilibrium::inverted}) {
     const auto support = square_acceleration_support(0.05, 15.0, 0.6);
     const auto equation = linearise(rod(), about, &support).equation;
     CHECK(equation.coefficient.is_piecewise_constant());
     const double delta = sign_of(about) * 1.5 * 9.81 / 0.8 / 225.0,
                  epsilon = sign_of(about) * 1.5 * 0.05 / 0.8;
-    CHECK(equation.epsilon() == Approx(std::abs(epsilon)).epsilon(1e-14));
+    check_close("epsilon of a square support acceleration (relative)", equation.epsilon(), std::abs(epsilon),
+                1e-15);
     for (const double theta : {0.1, 1.0, 2.4, 2.6, 4.0, 5.6, 5.7}) {
       const double wave = std::sin(theta + 0.6) > 0.0 ? 1.0 : -1.0;
-      CHECK(equation.coefficient(theta) == Approx(delta - epsilon * wave).epsilon(1e-13));
+      check_close("coefficient of a square support acceleration (relative)", equation.coefficient(theta),
+                  delta - epsilon * wave, 8e-15);
     }
     const auto jumps = equation.coefficient.breakpoints(0.0, 2.0 * kPi);
     REQUIRE(jumps.size() == 2);
-    CHECK(jumps[0] == Approx(kPi - 0.6).epsilon(1e-15));
-    CHECK(jumps[1] == Approx(2.0 * kPi - 0.6).epsilon(1e-15));
+    check_close("jumps of a square support acceleration (relative)", jumps[0], kPi - 0.6, 8e-16);
+    check_close("jumps of a square support acceleration (relative)", jumps[1], 2.0 * kPi - 0.6, 8e-16);
   }
 }
 
 TEST_CASE("Without a support the phase is alpha t and the coefficient exactly 1 or -1",
-          "[model][linearisation]") {
+          "[model][linearisation][ratchet]") {
   for (const auto about : {Equilibrium::hanging, Equilibrium::inverted}) {
     const auto linear = linearise(rod(), about, nullptr);
     CHECK(linear.equation.coefficient.is_constant());
@@ -129,18 +134,19 @@ TEST_CASE("Without a support the phase is alpha t and the coefficient exactly 1 
   const auto equation = linearise(rod(), Equilibrium::hanging, &still).equation;
   CHECK(equation.coefficient.is_constant());
   CHECK(equation.angular_frequency == 4.0);
-  CHECK(equation.delta() == Approx(rod().alpha_squared() / 16.0).epsilon(1e-15));
+  check_close("delta of a support at rest (relative)", equation.delta(), rod().alpha_squared() / 16.0, 8e-16);
 }
 
-TEST_CASE("The moment enters the forcing only", "[model][linearisation]") {
+TEST_CASE("The moment enters the forcing only", "[model][linearisation][ratchet]") {
   const auto support = sinusoidal_support(0.05, 11.0);
   const Excitation moment{11.0, PeriodicFunction::fourier(0.1, {{2, 0.3, 0.0}})};
   const auto with = linearise(rod(), Equilibrium::inverted, &support, &moment);
   const auto without = linearise(rod(), Equilibrium::inverted, &support);
   REQUIRE(with.forcing);
   CHECK_FALSE(without.forcing);
-  CHECK(with.forcing->mean() == Approx(0.1 / rod().inertia).epsilon(1e-15));
-  CHECK(with.forcing->harmonics()[0].cosine == Approx(0.3 / rod().inertia).epsilon(1e-15));
+  check_close("forcing by a moment (relative)", with.forcing->mean(), 0.1 / rod().inertia, 8e-16);
+  check_close("forcing by a moment (relative)", with.forcing->harmonics()[0].cosine, 0.3 / rod().inertia,
+              8e-16);
   CHECK(with.equation.delta() == without.equation.delta());
   CHECK(with.equation.epsilon() == without.equation.epsilon());
 }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "strutt/base/error.hpp"
+#include "support/ratchet.hpp"
 
 namespace strutt::test::periodic_function_test {
 
@@ -129,7 +130,8 @@ TEST_CASE("Samples are met at the nodes, for odd and even numbers of them", "[mo
   }
 }
 
-TEST_CASE("Samples of a trigonometric polynomial give its coefficients back", "[model][periodic_function]") {
+TEST_CASE("Samples of a trigonometric polynomial give its coefficients back",
+          "[model][periodic_function][ratchet]") {
   Random random;
   const auto harmonics = random.harmonics({1, 2, 3, 4});
   const auto f = PeriodicFunction::fourier(0.7, harmonics);
@@ -138,24 +140,31 @@ TEST_CASE("Samples of a trigonometric polynomial give its coefficients back", "[
     for (int j = 0; j < count; ++j)
       values.push_back(static_cast<double>(series(0.7, harmonics, 2.0 * acos(Real(-1)) * j / count)));
     const auto g = PeriodicFunction::samples(values);
-    CHECK(std::abs(g.mean() - 0.7) < 1e-14);
+    const auto check = [](double found, double expected) {
+      check_within("coefficients from samples of a trigonometric polynomial", std::abs(found - expected),
+                   1.5e-15);
+    };
+    check(g.mean(), 0.7);
     for (std::size_t k = 0; k < 4; ++k) {
-      CHECK(std::abs(g.harmonics()[k].cosine - harmonics[k].cosine) < 1e-14);
-      CHECK(std::abs(g.harmonics()[k].sine - harmonics[k].sine) < 1e-14);
+      check(g.harmonics()[k].cosine, harmonics[k].cosine);
+      check(g.harmonics()[k].sine, harmonics[k].sine);
     }
-    for (const auto& h : g.harmonics().subspan(4)) CHECK(std::hypot(h.cosine, h.sine) < 1e-15);
+    for (const auto& h : g.harmonics().subspan(4))
+      check_within("coefficients from samples that are not in a trigonometric polynomial",
+                   std::hypot(h.cosine, h.sine), 2e-16);
   }
 }
 
-TEST_CASE("The square wave and its antiderivatives have their Fourier series", "[model][periodic_function]") {
+TEST_CASE("The square wave and its antiderivatives have their Fourier series",
+          "[model][periodic_function][ratchet]") {
   for (const double theta : {-9.0, -2.0, -0.4, 0.0, 0.9, 1.2, 2.5, 3.1, 4.4, 6.0, 31.0}) {
     const double shift = 0.3;
-    CHECK(std::abs(PeriodicFunction::square(0.0, 1.0, shift, 0)(theta) - square_series(0, theta - shift)) <
-          1e-3);
-    CHECK(std::abs(PeriodicFunction::square(0.0, 1.0, shift, 1)(theta) - square_series(1, theta - shift)) <
-          1e-8);
-    CHECK(std::abs(PeriodicFunction::square(0.0, 1.0, shift, 2)(theta) - square_series(2, theta - shift)) <
-          2e-12);
+    const auto error = [&](int n) {
+      return std::abs(PeriodicFunction::square(0.0, 1.0, shift, n)(theta) - square_series(n, theta - shift));
+    };
+    check_within("square wave against its Fourier series", error(0), 8e-5);
+    check_within("triangle wave against its Fourier series", error(1), 2.5e-9);
+    check_within("parabolic arcs against their Fourier series", error(2), 5e-14);
   }
   const auto wave = PeriodicFunction::square(0.5, -2.0, 0.3);
   CHECK(wave.is_piecewise_constant());
@@ -167,14 +176,16 @@ TEST_CASE("The square wave and its antiderivatives have their Fourier series", "
   CHECK_FALSE(PeriodicFunction::square(0.5, -2.0, 0.3, 1).is_piecewise_constant());
 }
 
-TEST_CASE("Derivatives lead back from the parabolic arcs to the square wave", "[model][periodic_function]") {
+TEST_CASE("Derivatives lead back from the parabolic arcs to the square wave",
+          "[model][periodic_function][ratchet]") {
   const auto arcs = PeriodicFunction::square(0.2, 1.5, -0.8, 2);
   const auto triangle = arcs.derivative(), wave = triangle.derivative();
   CHECK_THROWS_WITH(wave.derivative(), "a square wave has no derivative");
   const double h = 1e-3;  // central differences of parabolas are exact up to rounding
   for (const double theta : {-4.0, -1.0, 0.0, 0.5, 1.7, 2.0, 5.0}) {
-    CHECK(std::abs((arcs(theta + h) - arcs(theta - h)) / (2.0 * h) - triangle(theta)) < 1e-12);
-    CHECK(std::abs((triangle(theta + h) - triangle(theta - h)) / (2.0 * h) - wave(theta)) < 1e-12);
+    for (const auto& [f, slope] : {std::pair{&arcs, &triangle}, {&triangle, &wave}})
+      check_within("slope of parabolic arcs and triangle waves against differences",
+                   std::abs(((*f)(theta + h) - (*f)(theta - h)) / (2.0 * h) - (*slope)(theta)), 1e-12);
     CHECK(wave(theta) == PeriodicFunction::square(0.0, 1.5, -0.8)(theta));
   }
   // continuous at the ends of the arcs, and with mean 0.2 (Simpson's rule is exact on each arc)
@@ -183,7 +194,7 @@ TEST_CASE("Derivatives lead back from the parabolic arcs to the square wave", "[
     CHECK(std::abs(arcs(start - 1e-9) - arcs(start + 1e-9)) < 1e-8);
     mean += (arcs(start) + 4.0 * arcs(start + kPi / 2.0) + arcs(start + kPi)) / 12.0;
   }
-  CHECK(mean == Approx(0.2).epsilon(1e-14));
+  check_close("mean of parabolic arcs by Simpson's rule (relative)", mean, 0.2, 2.5e-15);
 }
 
 TEST_CASE("bound and lower_bound hold, and are met by a single wave", "[model][periodic_function]") {
@@ -210,16 +221,19 @@ TEST_CASE("bound and lower_bound hold, and are met by a single wave", "[model][p
   CHECK(PeriodicFunction::square(-1e16, 40.0, 0.0).lower_bound() == -1e16 - 40.0);
 }
 
-TEST_CASE("Shifting, scaling and adding are what they say, value by value", "[model][periodic_function]") {
+TEST_CASE("Shifting, scaling and adding are what they say, value by value",
+          "[model][periodic_function][ratchet]") {
   Random random;
   std::vector<PeriodicFunction> functions = {PeriodicFunction::fourier(0.6, random.harmonics({1, 2, 9}))};
   for (int n = 0; n <= 2; ++n) functions.push_back(PeriodicFunction::square(0.6, 1.7, 0.4, n));
   for (const auto& f : functions) {
     for (const double theta0 : {-3.0, 0.0, 0.5, 12.0}) {
       for (const double tau : {-1.0, 0.0, 0.8, 2.2}) {
-        CHECK(std::abs(f.shifted(theta0)(tau) - f(theta0 + tau)) < 1e-13);
-        CHECK(std::abs(f.scaled(-3.0)(tau) + 3.0 * f(tau)) < 1e-14);
-        CHECK(std::abs(f.plus(0.25)(tau) - (f(tau) + 0.25)) < 1e-15);
+        check_within("periodic function shifted", std::abs(f.shifted(theta0)(tau) - f(theta0 + tau)),
+                     1.2e-14);
+        check_within("periodic function scaled", std::abs(f.scaled(-3.0)(tau) + 3.0 * f(tau)), 3e-15);
+        check_within("periodic function with a constant added", std::abs(f.plus(0.25)(tau) - (f(tau) + 0.25)),
+                     8e-16);
       }
     }
     CHECK(f.plus(0.25).mean() == 0.85);

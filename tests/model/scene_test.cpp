@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "strutt/base/error.hpp"
+#include "support/ratchet.hpp"
 #include "support/scenes.hpp"
 
 namespace strutt::test::scene_test {
@@ -220,31 +221,36 @@ TEST_CASE("validate checks the combination of tables", "[model][scene][error]") 
   }
 }
 
-TEST_CASE("A scene gives the body, support and moment it describes", "[model][scene]") {
+TEST_CASE("A scene gives the body, support and moment it describes", "[model][scene][ratchet]") {
   auto scene = rod_scene();
   scene.moment = MomentTable{0.1, {{2, 0.3, 0.4}}, {}};
   CHECK(pendulum(scene).inertia == PhysicalPendulum::uniform_rod(1.2, 0.8).inertia);
   CHECK(pendulum(scene).damping == 0.25);
-  CHECK(support(scene)->value(0.1) == Approx(0.06 * std::cos(1.2)).epsilon(1e-14));
+  check_close("support and moment of a scene (relative)", support(scene)->value(0.1), 0.06 * std::cos(1.2),
+              1.5e-15);
   CHECK(moment(scene)->frequency == 12.0);
-  CHECK(moment(scene)->value(0.05) == Approx(0.1 + 0.3 * std::cos(1.2) + 0.4 * std::sin(1.2)).epsilon(1e-14));
+  check_close("support and moment of a scene (relative)", moment(scene)->value(0.05),
+              0.1 + 0.3 * std::cos(1.2) + 0.4 * std::sin(1.2), 1.5e-15);
   CHECK(support(every_kind()[2])->function.derivative().derivative().is_piecewise_constant());
-  CHECK(support(every_kind()[3])->value(2.0 * std::numbers::pi / 36.0) == Approx(0.05).epsilon(1e-14));
-  CHECK(pendulum(every_kind()[1]).alpha_squared() == Approx(9.81 * 0.5 / 0.4).epsilon(1e-15));
-  CHECK(pendulum(every_kind()[6]).alpha_squared() == Approx(9.81 / 2.0).epsilon(1e-15));
+  check_close("support and moment of a scene (relative)",
+              support(every_kind()[3])->value(2.0 * std::numbers::pi / 36.0), 0.05, 1.5e-15);
+  check_close("alpha^2 of a scene (relative)", pendulum(every_kind()[1]).alpha_squared(), 9.81 * 0.5 / 0.4,
+              8e-16);
+  check_close("alpha^2 of a scene (relative)", pendulum(every_kind()[6]).alpha_squared(), 9.81 / 2.0, 8e-16);
   CHECK_FALSE(support(every_kind()[6]));
   CHECK_FALSE(moment(every_kind()[6]));
   CHECK(refusal([] { pendulum(mathieu_scene(1, 1)); }) == "the scene has no [pendulum]");
 }
 
-TEST_CASE("Each kind of scene gives the linear equation it describes", "[model][scene]") {
+TEST_CASE("Each kind of scene gives the linear equation it describes", "[model][scene][ratchet]") {
   const auto hill = [](const Scene& scene) { return std::get<HillEquation>(linear_model(scene)); };
   CHECK(hill(mathieu_scene(1.5, -0.4, 0.1)).delta() == 1.5);
   CHECK(hill(mathieu_scene(1.5, -0.4, 0.1)).coefficient(0.0) == 1.1);
   CHECK(hill(mathieu_scene(4.0, -1.0, 0.1, true)).coefficient(0.0) == 1.5);
   CHECK(hill(hill_scene(Waveform::square)).coefficient.is_piecewise_constant());
-  CHECK(hill(hill_scene(Waveform::square)).coefficient(0.0) ==
-        Approx(1.5 / (std::numbers::pi * std::numbers::pi)).epsilon(1e-14));
+  check_close("coefficient of a scene with a square wave (relative)",
+              hill(hill_scene(Waveform::square)).coefficient(0.0),
+              1.5 / (std::numbers::pi * std::numbers::pi), 8e-16);
   CHECK(hill(hill_scene(Waveform::harmonics)).coefficient.harmonics().size() == 2);
   CHECK(hill(every_kind()[6]).delta() == 1.0);
   CHECK(hill(rod_scene(Equilibrium::inverted)).delta() == -hill(rod_scene()).delta());
