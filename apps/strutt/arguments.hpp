@@ -102,9 +102,8 @@ struct Information {
   std::string text;
 };
 
-using Arguments =
-    std::variant<Information, ChartArguments, StabilityArguments, MotionArguments, PeriodArguments,
-                 PortraitArguments, NormalFormArguments, CharacteristicArguments,
-                 TonguesArguments, MarginArguments, TradeoffArguments>;
+using Arguments = std::variant<Information, ChartArguments, StabilityArguments, MotionArguments,
+                               PeriodArguments, PortraitArguments, NormalFormArguments,
+                               CharacteristicArguments, TonguesArguments, MarginArguments, TradeoffArguments>;
 
 }  // namespace strutt::app

@@ -81,7 +81,8 @@ void RowWriter::write_json(std::span<const Cell> row) {
 void RowWriter::conclude(const Provenance& done) { done_ = done; }
 
 void RowWriter::prepare() {
-  if (json_ && !complete_) file_.write("\n]" + (done_.empty() ? "" : ",\"done\":" + json_text(done_)) + "}\n");
+  if (json_ && !complete_)
+    file_.write("\n]" + (done_.empty() ? "" : ",\"done\":" + json_text(done_)) + "}\n");
   if (!json_ && !complete_) file_.write(comment_lines(done_));
   complete_ = true;
   file_.prepare();

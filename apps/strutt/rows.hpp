@@ -40,7 +40,7 @@ class RowWriter {
 
   void write(std::span<const Cell> row);
   void conclude(const Provenance& done);  ///< what was done, known only now; behind the last row
-  void prepare();  ///< after the last row: all that can fail but the renaming
+  void prepare();                         ///< after the last row: all that can fail but the renaming
   void commit();
 
  private:

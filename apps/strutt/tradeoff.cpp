@@ -35,7 +35,8 @@ TradeoffRequest request_of(const TradeoffArguments& arguments, const SceneFile& 
   TradeoffRequest request{
       .points = points_of(arguments, scene), .threads = threads_of(arguments), .cancel = &cancel_flag()};
   const Method method =
-      method_of(arguments, "tradeoff", {Method::surrogate, Method::propagator, Method::cvode, Method::arkode, Method::exact});
+      method_of(arguments, "tradeoff",
+                {Method::surrogate, Method::propagator, Method::cvode, Method::arkode, Method::exact});
   if (method != Method::automatic) request.methods = {method};
   if (arguments.tolerance) request.tolerances = {tolerance_of(arguments)};
   try {

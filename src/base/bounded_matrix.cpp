@@ -25,7 +25,8 @@ namespace {
 
 /// suffix[j]: the product of the factors after j, for all but the last.
 template <typename Matrix>
-std::vector<BasicScaledMatrix<Matrix>> products_after(const std::vector<BasicBoundedMatrix<Matrix>>& factors) {
+std::vector<BasicScaledMatrix<Matrix>> products_after(
+    const std::vector<BasicBoundedMatrix<Matrix>>& factors) {
   std::vector<BasicScaledMatrix<Matrix>> suffix(factors.size() - 1);
   for (std::size_t j = suffix.size(); j-- > 0;) {
     suffix[j] = j + 1 < suffix.size() ? suffix[j + 1] * factors[j + 1].value : factors[j + 1].value;

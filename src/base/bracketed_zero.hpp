@@ -23,8 +23,9 @@ inline bool are_neighbours(double a, double b) { return std::nextafter(a, b) == 
 /// When a bracket is small enough: its ends differ by about a rounding.
 inline bool are_close(double a, double b) { return std::abs(b - a) <= 2.0 * kUnit * std::abs(a + b); }
 
-/// The sign change of f between low < high, where f(low) = at_low and f(high) = at_high have opposite signs or are 0,
-/// enclosed by Algorithm 748 (Alefeld, Potra, Shi 1995) until close(low, high), in at most `most` evaluations.
+/// The sign change of f between low < high, where f(low) = at_low and f(high) = at_high have opposite signs
+/// or are 0, enclosed by Algorithm 748 (Alefeld, Potra, Shi 1995) until close(low, high), in at most `most`
+/// evaluations.
 template <typename Function, typename Close>
 ZeroBracket bracketed_zero(const Function& f, double low, double high, double at_low, double at_high,
                            const Close& close, std::uintmax_t most = 100) {
@@ -32,8 +33,8 @@ ZeroBracket bracketed_zero(const Function& f, double low, double high, double at
   return {a, b};
 }
 
-/// How far one must go from a place towards `end` until certain(place): steps doubled from `first` > 0 on; the whole
-/// way where it is nowhere certain before.
+/// How far one must go from a place towards `end` until certain(place): steps doubled from `first` > 0 on;
+/// the whole way where it is nowhere certain before.
 template <typename Certain>
 double certain_distance(double place, double end, double first, const Certain& certain) {
   const double whole = std::abs(end - place);

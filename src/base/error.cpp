@@ -62,7 +62,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 std::string quoted_list(const std::vector<std::string>& names) {
   constexpr std::size_t most = 12;
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) list += (i == 0 ? "'" : ", '") + names[i] + "'";
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+    list += (i == 0 ? "'" : ", '") + names[i] + "'";
   return names.size() > most ? list + ", ... (" + std::to_string(names.size()) + " in all)" : list;
 }
 

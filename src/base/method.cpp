@@ -8,8 +8,8 @@
 namespace strutt {
 namespace {
 
-constexpr std::array<std::string_view, kMethodCount> kMethodNames = {"auto",   "surrogate", "propagator", "cvode",
-                                                    "arkode", "fourier",   "exact"};
+constexpr std::array<std::string_view, kMethodCount> kMethodNames = {
+    "auto", "surrogate", "propagator", "cvode", "arkode", "fourier", "exact"};
 
 }  // namespace
 

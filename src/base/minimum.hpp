@@ -11,9 +11,9 @@ struct Minimum {
   double place, value;
 };
 
-/// The minimum of a function with one between low and high, to 2^-bits of their distance (Brent 1973, chapter 5): a
-/// double cannot tell more than half of its digits there. Brent's tolerance is one of the variable, which therefore is
-/// the share of the way.
+/// The minimum of a function with one between low and high, to 2^-bits of their distance (Brent 1973, chapter
+/// 5): a double cannot tell more than half of its digits there. Brent's tolerance is one of the variable,
+/// which therefore is the share of the way.
 template <typename Function>
 Minimum least_between(const Function& f, double low, double high, int bits = 30) {
   std::uintmax_t most = 60;

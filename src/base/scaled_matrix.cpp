@@ -48,10 +48,10 @@ Matrix times_power_of_two(const Matrix& x, long exponent) {
   return x.unaryExpr([shift](double entry) { return std::ldexp(entry, shift); });
 }
 
-#define STRUTT_INSTANTIATE(Matrix)                                                              \
-  template struct BasicScaledMatrix<Matrix>;                                                    \
-  template BasicScaledMatrix<Matrix> operator*(const BasicScaledMatrix<Matrix>&,                \
-                                               const BasicScaledMatrix<Matrix>&);               \
+#define STRUTT_INSTANTIATE(Matrix)                                                \
+  template struct BasicScaledMatrix<Matrix>;                                      \
+  template BasicScaledMatrix<Matrix> operator*(const BasicScaledMatrix<Matrix>&,  \
+                                               const BasicScaledMatrix<Matrix>&); \
   template Matrix times_power_of_two(const Matrix&, long);
 STRUTT_INSTANTIATE(Eigen::MatrixXd)
 STRUTT_INSTANTIATE(Eigen::Matrix2d)

@@ -19,13 +19,15 @@ void Axis::validate(const std::string& name) const {
   require(std::isfinite(to), name + " axis: to", to, "finite");
   require(points >= 1, name + " axis: points", static_cast<double>(points), "at least 1");
   if (points == 1) {
-    require(from == to, name + " axis: to", to, "equal to from (" + to_text(from) + ") when there is one point");
+    require(from == to, name + " axis: to", to,
+            "equal to from (" + to_text(from) + ") when there is one point");
   } else {
-    require(from != to, name + " axis: to", to, "different from from (" + to_text(from) + ") for " +
-                                                     std::to_string(points) + " points: the range is empty");
+    require(from != to, name + " axis: to", to,
+            "different from from (" + to_text(from) + ") for " + std::to_string(points) +
+                " points: the range is empty");
   }
-  require(scale == AxisScale::linear || from * to > 0.0 || (from > 0.0) == (to > 0.0), name + " axis: from", from,
-          "of the same sign as to (" + to_text(to) + ") on a logarithmic axis");
+  require(scale == AxisScale::linear || from * to > 0.0 || (from > 0.0) == (to > 0.0), name + " axis: from",
+          from, "of the same sign as to (" + to_text(to) + ") on a logarithmic axis");
   require(scale == AxisScale::linear || (from != 0.0 && to != 0.0), name + " axis: range", 0.0,
           "without 0 on a logarithmic axis");
 }

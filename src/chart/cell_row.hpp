@@ -22,7 +22,8 @@ struct DampingRow {
 struct Turns {
   double quadrant = 0.0;
   int pattern = 0;  ///< sign_quadrant of the cell
-  int doubts = 0;   ///< how often the signs left a choice: two quadrants forwards, which is taken, or backwards
+  int doubts =
+      0;  ///< how often the signs left a choice: two quadrants forwards, which is taken, or backwards
 
   void follow(double u2, double du2) {
     const int here = sign_quadrant(u2, du2), step = (here - pattern + 5) % 4 - 1;  // -1, 0, 1 or 2
@@ -55,8 +56,8 @@ struct CellRow {
   double *error = nullptr, *verdict = nullptr, *margin = nullptr, *growth = nullptr, *winding = nullptr,
          *trace = nullptr;
 
-  /// The largest error of all cells, NaN if one is; if `error` has no place, a bound of them made of what neighbouring
-  /// cells have in common.
+  /// The largest error of all cells, NaN if one is; if `error` has no place, a bound of them made of what
+  /// neighbouring cells have in common.
   double largest_error = 0.0;
   bool all_resolved = false;  ///< no verdict is `unresolved`, which without `error` are some more
 };

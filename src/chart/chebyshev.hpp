@@ -17,8 +17,8 @@ Eigen::MatrixXd transform(int n);
 /// the last place.
 void polynomials(std::span<const double> t, int degree, Eigen::MatrixXd& result);
 
-/// (n + 1) x (n + 1): from the coefficients of a polynomial on [-1, 1] to those of the same on [low, high], each row to
-/// about n^2 units in the last place of the largest. n > 0.
+/// (n + 1) x (n + 1): from the coefficients of a polynomial on [-1, 1] to those of the same on [low, high],
+/// each row to about n^2 units in the last place of the largest. n > 0.
 Eigen::MatrixXd restriction(int n, double low, double high);
 
 }  // namespace strutt::chebyshev

@@ -13,8 +13,8 @@
 namespace strutt {
 namespace {
 
-constexpr double kNarrowTongue = 1e-9;       // relative to the position: below, the growth of the middle says it
-constexpr double kNarrowError = 1e-7;  // of that, relative: at most about the width in the mean
+constexpr double kNarrowTongue = 1e-9;  // relative to the position: below, the growth of the middle says it
+constexpr double kNarrowError = 1e-7;   // of that, relative: at most about the width in the mean
 
 std::string damping_path(const Scene& scene) {
   if (scene.mathieu) return "mathieu.damping";

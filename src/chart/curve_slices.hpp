@@ -31,7 +31,8 @@ class SliceSource {
 
   Slice at(double over);  ///< throws NumericalFailure after max_slices
   double resolution() const { return options_.resolution; }
-  double thinnest() const;  ///< pairs of systems that are thinner are left out of slices: they show in some only
+  double thinnest()
+      const;  ///< pairs of systems that are thinner are left out of slices: they show in some only
   const Scene& scene() const { return scene_; }
   const TongueLine& along() const { return along_; }
   const TongueLine& over() const { return over_; }

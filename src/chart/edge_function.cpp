@@ -32,7 +32,9 @@ std::optional<double> amplitude_of_one_harmonic(const PeriodicFunction& v) {
 
 /// Whether both are multiples, not of opposite sign, of one cosine or one sine.
 bool same_direction(const PeriodicFunction& a, const PeriodicFunction& b) {
-  const auto first = [](const PeriodicFunction& v) { return v.is_constant() ? Harmonic{} : v.harmonics().front(); };
+  const auto first = [](const PeriodicFunction& v) {
+    return v.is_constant() ? Harmonic{} : v.harmonics().front();
+  };
   const Harmonic x = first(a), y = first(b);
   return x.cosine * y.cosine >= 0.0 && x.sine * y.sine >= 0.0 &&
          ((x.cosine == 0.0 && y.cosine == 0.0) || (x.sine == 0.0 && y.sine == 0.0));
@@ -129,9 +131,7 @@ double LineEquation::growth(double parameter) {
   return analyse(engine_, linear_model(scene_), {.tolerance = 1e-13}, parts).growth;
 }
 
-double EdgeFunction::Value::below(bool upper) const {
-  return point.mean - edge(upper).value;
-}
+double EdgeFunction::Value::below(bool upper) const { return point.mean - edge(upper).value; }
 
 double EdgeFunction::Value::error(bool upper) const {
   return point.error + edge(upper).error + kUnit * std::abs(below(upper));
@@ -152,8 +152,10 @@ TongueEdges EdgeFunction::edges_of(const LinePoint& point) {
 }
 
 std::optional<double> EdgeFunction::bend(const Value& a, const Value& b, bool upper) {
-  const auto from = amplitude_of_one_harmonic(a.point.variation), to = amplitude_of_one_harmonic(b.point.variation);
-  if (!from || !to || a.point.mean != b.point.mean || !same_direction(a.point.variation, b.point.variation)) return {};
+  const auto from = amplitude_of_one_harmonic(a.point.variation),
+             to = amplitude_of_one_harmonic(b.point.variation);
+  if (!from || !to || a.point.mean != b.point.mean || !same_direction(a.point.variation, b.point.variation))
+    return {};
   const double change = std::abs(*to - *from);
   double gap = std::numeric_limits<double>::infinity();
   for (const auto& [value, epsilon] : {std::pair{&a, *from}, std::pair{&b, *to}}) {
@@ -161,8 +163,8 @@ std::optional<double> EdgeFunction::bend(const Value& a, const Value& b, bool up
       if (next < (upper ? 0 : 1)) continue;
       if (next > kLargestTongue) return {};
       const Value other{{}, line_.mathieu_tongue(epsilon, next)};
-      gap = std::min(gap, std::abs(other.edge(upper).value - value->edge(upper).value) - other.edge(upper).error -
-                              value->edge(upper).error);
+      gap = std::min(gap, std::abs(other.edge(upper).value - value->edge(upper).value) -
+                              other.edge(upper).error - value->edge(upper).error);
     }
   }
   const double least = gap - change;  // each of the two moves by half of it at most

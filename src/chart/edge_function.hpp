@@ -37,8 +37,8 @@ class LineEquation {
   /// The edges of a tongue of Mathieu's equation; many orders at once where V is the same all along the line.
   TongueEdges mathieu_tongue(double epsilon, int order);
   bool one_variation() const { return one_variation_; }  ///< V is the same all along the line
-  double half_damping(double parameter);  ///< cT/2
-  double growth(double parameter);        ///< by the monodromy matrix
+  double half_damping(double parameter);                 ///< cT/2
+  double growth(double parameter);                       ///< by the monodromy matrix
 
  private:
   HillEquation equation(double parameter);
@@ -66,9 +66,10 @@ class EdgeFunction {
   const Value& at(double parameter);
   int order() const { return order_; }
 
-  /// How far F is, between two places, from the straight line in epsilon through its values there, at most. Nothing
-  /// unless the equation is Mathieu's with one mean and epsilon of one sign, or where edges of the same symmetry are too
-  /// close together: with V = epsilon cos, |edge''| <= 2/(distance to the next of its symmetry).
+  /// How far F is, between two places, from the straight line in epsilon through its values there, at most.
+  /// Nothing unless the equation is Mathieu's with one mean and epsilon of one sign, or where edges of the
+  /// same symmetry are too close together: with V = epsilon cos, |edge''| <= 2/(distance to the next of its
+  /// symmetry).
   std::optional<double> bend(const Value& a, const Value& b, bool upper);
 
   /// The mean of F' over [from, to], by Chebyshev interpolation in a window around it inside [least, most],

@@ -56,8 +56,8 @@ class ZeroSearch {
     return change_between(low.point, high.point) <= low.error(upper_) + high.error(upper_);
   }
 
-  /// F is too straight to reach zero between two values of the same sign. It comes close to zero where a line passes
-  /// the tip of a tongue, where its value is that of a square.
+  /// F is too straight to reach zero between two values of the same sign. It comes close to zero where a line
+  /// passes the tip of a tongue, where its value is that of a square.
   bool straight(double a, double b) {
     const auto &low = function_.at(a), &high = function_.at(b);
     const auto bend = function_.bend(low, high, upper_);

@@ -87,7 +87,8 @@ std::optional<Pair> resonant_pair(const HalfTurns& turns, std::size_t i, std::si
 }
 
 std::optional<CertainZero> resonance_of(RestingLine& line, const Pair& pair, double from, double to) {
-  const auto unknown = line.half_turns(from)->excess(pair.i, pair.j, pair.k).value;  // on neither side for certain
+  const auto unknown =
+      line.half_turns(from)->excess(pair.i, pair.j, pair.k).value;  // on neither side for certain
   const auto excess = [&](double p) {
     const auto turns = line.half_turns(p);
     return turns ? turns->excess(pair.i, pair.j, pair.k) : Margin{unknown, kInfinity};
@@ -97,8 +98,8 @@ std::optional<CertainZero> resonance_of(RestingLine& line, const Pair& pair, dou
 
 }  // namespace
 
-std::optional<CertainZero> resting_resonance(const Scene& rest, const TongueLine& along,
-                                                  Mechanism mechanism, double near, double within) {
+std::optional<CertainZero> resting_resonance(const Scene& rest, const TongueLine& along, Mechanism mechanism,
+                                             double near, double within) {
   RestingLine line(rest, along.parameter);
   const double from = std::max(along.from, near - within), to = std::min(along.to, near + within);
   const auto middle = line.half_turns(near);

@@ -11,7 +11,7 @@ namespace strutt {
 /// frequencies w_i: tongues of undamped systems begin there (Yakubovich, Starzhinskii 1975): through -1 for
 /// i = j and odd k, through +1 for i = j and even k, with a complex pair for i != j. The nearest to `near`
 /// within so much; nothing where the system is excited, damped, not symmetric or not positive definite.
-std::optional<CertainZero> resting_resonance(const Scene& rest, const TongueLine& along,
-                                                  Mechanism mechanism, double near, double within);
+std::optional<CertainZero> resting_resonance(const Scene& rest, const TongueLine& along, Mechanism mechanism,
+                                             double near, double within);
 
 }  // namespace strutt

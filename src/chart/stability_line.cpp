@@ -172,8 +172,9 @@ GrowthPeak largest_growth(StabilityLine& line, double from, double to, int steps
   int best = 0;
   for (int i = 1; i <= steps; ++i)
     if (line.at(position(i)).growth > line.at(position(best)).growth) best = i;
-  const auto [p, growth] = least_between([&](double x) { return -line.at(x).growth; },
-                                         position(std::max(best - 1, 0)), position(std::min(best + 1, steps)));
+  const auto [p, growth] =
+      least_between([&](double x) { return -line.at(x).growth; }, position(std::max(best - 1, 0)),
+                    position(std::min(best + 1, steps)));
   return {p, -growth};
 }
 

@@ -40,7 +40,8 @@ class SurrogateCells {
   struct Count {
     std::size_t cells = 0;
     double largest_error = 0.0;
-    std::vector<std::size_t> open = {};  ///< places in the strip of the cells that the surrogate does not answer for
+    std::vector<std::size_t> open =
+        {};  ///< places in the strip of the cells that the surrogate does not answer for
     Count& operator+=(const Count& other);
   };
   /// The turns of the factors at the ends of rows, see fill_factors.

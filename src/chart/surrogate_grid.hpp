@@ -24,8 +24,8 @@ struct GridPiece {
 };
 
 /// The boxes of a surrogate on the tensor grid of a chart: for some rows of a box a matrix product with the
-/// Chebyshev polynomials at the columns, which are kept while rows of the box are asked for. A wide box is cut into
-/// panels of columns, on which polynomials of lower degree do.
+/// Chebyshev polynomials at the columns, which are kept while rows of the box are asked for. A wide box is
+/// cut into panels of columns, on which polynomials of lower degree do.
 class SurrogateGrid {
  public:
   SurrogateGrid() = default;  // of no cells

@@ -16,6 +16,7 @@ struct TraceScale {
 /// For charts that show nothing but the discriminant: in each box of half-period factors D = 2 (u1 u2' + u1'
 /// u2), with the powers of two in it, becomes one function of its own, where its bound stays below the
 /// tolerance. Such boxes have a single function; the others stay as they are.
-std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, double tolerance, const TraceScale& scale);
+std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, double tolerance,
+                                      const TraceScale& scale);
 
 }  // namespace strutt

@@ -44,8 +44,7 @@ BasicBoundedMatrix<Matrix> restore_damping(const BasicBoundedMatrix<Matrix>& und
     return result;
   }
   // roundings: three a product, the slope's in both outer factors, and those of exp(-h), which grow with h
-  const Matrix size =
-      factor * (left.cwiseAbs() * undamped.value.mantissa.cwiseAbs() * right.cwiseAbs());
+  const Matrix size = factor * (left.cwiseAbs() * undamped.value.mantissa.cwiseAbs() * right.cwiseAbs());
   result.error = factor * (left.cwiseAbs() * undamped.error * right.cwiseAbs()) +
                  (8.0 + 4.0 * half_damping) * kUnit * size;
   result.normalise();
@@ -56,7 +55,8 @@ template <typename Matrix>
 double scaled_error(const BasicBoundedMatrix<Matrix>& matrix) {
   const double largest_error = std::max(matrix.error.maxCoeff(), matrix.error.trace());
   const double largest = matrix.value.mantissa.cwiseAbs().maxCoeff();
-  if (!std::isfinite(largest) || !std::isfinite(largest_error)) return std::numeric_limits<double>::infinity();
+  if (!std::isfinite(largest) || !std::isfinite(largest_error))
+    return std::numeric_limits<double>::infinity();
   const int exponent = static_cast<int>(std::clamp(matrix.value.exponent, -5000L, 5000L));
   // divide by max(1, largest * 2^exponent) without overflow
   const double scaled =

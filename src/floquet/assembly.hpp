@@ -7,8 +7,8 @@
 
 namespace strutt {
 
-/// The propagator of an equation Y'' + W Y = 0 over an interval mirrored about an even centre of W: for det P = 1
-/// it is J P^-1 J with J = diag(1, -1), that is P with its diagonal swapped.
+/// The propagator of an equation Y'' + W Y = 0 over an interval mirrored about an even centre of W: for det P
+/// = 1 it is J P^-1 J with J = diag(1, -1), that is P with its diagonal swapped.
 BoundedMatrix2 mirrored(BoundedMatrix2 propagator);
 
 /// N over a whole period from the propagators of the half period [theta0, theta0 + pi], in order; the first

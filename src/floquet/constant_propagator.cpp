@@ -28,10 +28,14 @@ CosSin cos_sin(double w, double s, double half_turns) {
   const double rest = std::fma(s, half_turns, -0.5 * quarters) + s_tail * half_turns;
   const double c = std::cos(pi * rest), z = std::sin(pi * rest);
   switch (static_cast<int>(std::fmod(quarters, 4.0))) {
-    case 0: return {c, z};
-    case 1: return {-z, c};
-    case 2: return {-c, -z};
-    default: return {z, -c};
+    case 0:
+      return {c, z};
+    case 1:
+      return {-z, c};
+    case 2:
+      return {-c, -z};
+    default:
+      return {z, -c};
   }
 }
 
@@ -58,8 +62,10 @@ BoundedMatrix2 growing(double w, double half_turns, double kappa) {
   return result;
 }
 
-/// Adds the effect of an error of w: dPhi/dw = -integral Phi(L, t) [0 0; 1/kappa 0] Phi(t, 0) dt, bounded entry by entry.
-void add_coefficient_error(BoundedMatrix2& result, double w, double length, double kappa, double absolute_error) {
+/// Adds the effect of an error of w: dPhi/dw = -integral Phi(L, t) [0 0; 1/kappa 0] Phi(t, 0) dt, bounded
+/// entry by entry.
+void add_coefficient_error(BoundedMatrix2& result, double w, double length, double kappa,
+                           double absolute_error) {
   if (absolute_error == 0.0) return;
   const double s = std::sqrt(std::abs(w));
   const double reach = s * length > 1.0 ? 1.0 / s : length;  // the size of Y started with slope 1
@@ -84,9 +90,8 @@ BoundedMatrix2 constant_propagator(double w, double half_turns, double kappa, do
   } else {
     result.value.mantissa(0, 1) = kappa * length;
   }
-  result.error += result.value.mantissa.unaryExpr([](double x) {
-    return kEntryError * std::abs(x) + (x != 0.0 && std::abs(x) < kTiny ? kTiny : 0.0);
-  });
+  result.error += result.value.mantissa.unaryExpr(
+      [](double x) { return kEntryError * std::abs(x) + (x != 0.0 && std::abs(x) < kTiny ? kTiny : 0.0); });
   if (w == 0.0) result.error(0, 0) = result.error(1, 1) = 0.0;
   add_coefficient_error(result, w, length, kappa, coefficient_error);
   result.normalise();

@@ -15,7 +15,8 @@ struct HillMatrix {
   HillBasis basis = HillBasis::bloch;
   double exponent = 0.0;                        ///< in [0, 1)
   std::vector<std::complex<double>> harmonics;  ///< [0] is not used
-  std::vector<double> errors = {};  ///< of the harmonics; for the resonant block only, all others take them as exact
+  std::vector<double> errors =
+      {};  ///< of the harmonics; for the resonant block only, all others take them as exact
 
   int width() const { return static_cast<int>(harmonics.size()) - 1; }  ///< of the band on either side
   bool real() const;

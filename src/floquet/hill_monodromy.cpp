@@ -66,16 +66,15 @@ HillMonodromy hill_monodromy(PropagatorPool& pool, const HillEquation& equation,
   // into rounding.
   const auto segments = method == Method::exact ? y.pieces : subdivided(y.pieces, y.w);
   if (segments.empty()) return without_result<Eigen::Matrix2d>(method, Outcome::step_limit);
-  HillMonodromy result =
-      tighten(sundials_ladder(options), options.tolerance, [&](double local_tolerance) {
-        const auto found = method == Method::exact
-                               ? closed_form_propagators(equation, y.w, segments, y.kappa)
-                               : integrated_propagators(
-                                     pool.integrator(2, method), y.w, segments, y.kappa,
-                                      y.coefficient_error + evaluation_error(y.w),
+  HillMonodromy result = tighten(sundials_ladder(options), options.tolerance, [&](double local_tolerance) {
+    const auto found =
+        method == Method::exact
+            ? closed_form_propagators(equation, y.w, segments, y.kappa)
+            : integrated_propagators(pool.integrator(2, method), y.w, segments, y.kappa,
+                                     y.coefficient_error + evaluation_error(y.w),
                                      propagator_options(options, local_tolerance, y.w.highest_order()));
-        return y.assembled(found, segments);
-      });
+    return y.assembled(found, segments);
+  });
   result.method = method;
   result.sharpest = result.sharpest || method == Method::exact;
   return result;

@@ -23,8 +23,8 @@ BasicMonodromy<Matrix> better_of(BasicMonodromy<Matrix> a, BasicMonodromy<Matrix
   return std::move(better);
 }
 
-/// Is SUNDIALS to be asked, after the propagator ended like this? Where only rounding keeps the propagator from its
-/// tolerance, an adaptive method does no better at many times the cost.
+/// Is SUNDIALS to be asked, after the propagator ended like this? Where only rounding keeps the propagator
+/// from its tolerance, an adaptive method does no better at many times the cost.
 bool needs_sundials(Outcome outcome, Method asked) {
   return asked == Method::automatic && outcome == Outcome::step_limit;
 }

@@ -36,7 +36,8 @@ std::vector<Multiplier> system_multipliers(const BoundedMatrix& matrix) {
     const double modulus = std::abs(value);
     const double error = kFirstOrderSafety * perturbation / (eigen.condition[j] * modulus);
     const auto direction = modulus > 0.0 ? value / modulus : std::complex<double>(1.0);
-    const double log_modulus = std::log(modulus) + static_cast<double>(matrix.value.exponent) * std::numbers::ln2;
+    const double log_modulus =
+        std::log(modulus) + static_cast<double>(matrix.value.exponent) * std::numbers::ln2;
     result.push_back({log_modulus, direction, error});
   }
   std::stable_sort(result.begin(), result.end(), [](const Multiplier& a, const Multiplier& b) {

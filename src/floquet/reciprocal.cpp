@@ -43,7 +43,8 @@ void project_out(const MatrixXd& v, VectorXd& x) {
   }
 }
 
-/// A unit vector orthogonal to the columns of v and of J v: the best of the coordinate directions, mixed a little.
+/// A unit vector orthogonal to the columns of v and of J v: the best of the coordinate directions, mixed a
+/// little.
 VectorXd fresh_direction(const MatrixXd& v, Eigen::Index size) {
   VectorXd best = VectorXd::Zero(size);
   for (Eigen::Index j = 0; j < size; ++j) {
@@ -55,8 +56,9 @@ VectorXd fresh_direction(const MatrixXd& v, Eigen::Index size) {
   return best.normalized();
 }
 
-/// The restriction of a skew-Hamiltonian S (every eigenvalue double) to an isotropic invariant subspace of half the
-/// dimension, by the isotropic Arnoldi process (Mehrmann, Watkins 2001): its eigenvalues are those of S, each once.
+/// The restriction of a skew-Hamiltonian S (every eigenvalue double) to an isotropic invariant subspace of
+/// half the dimension, by the isotropic Arnoldi process (Mehrmann, Watkins 2001): its eigenvalues are those
+/// of S, each once.
 MatrixXd isotropic_restriction(const MatrixXd& s) {
   const Eigen::Index size = s.rows(), d = size / 2;
   const double negligible = 1e-13 * s.norm();
@@ -80,7 +82,8 @@ MatrixXd isotropic_restriction(const MatrixXd& s) {
   return h;
 }
 
-/// Whether two of them cannot be told apart: a complex pair may then be two real ones, and the other way round.
+/// Whether two of them cannot be told apart: a complex pair may then be two real ones, and the other way
+/// round.
 bool any_collision(const std::vector<MultiplierSum>& rho) {
   for (std::size_t j = 0; j < rho.size(); ++j) {
     for (std::size_t k = 0; k < j; ++k) {
@@ -92,27 +95,31 @@ bool any_collision(const std::vector<MultiplierSum>& rho) {
 
 }  // namespace
 
-SystemStability reciprocal_stability(const BoundedMatrix& undamped, const MatrixXd& mass, double half_damping) {
+SystemStability reciprocal_stability(const BoundedMatrix& undamped, const MatrixXd& mass,
+                                     double half_damping) {
   const Eigen::Index n = undamped.value.mantissa.rows(), d = n / 2;
   // canonical coordinates (q, mass q'/kappa)
   MatrixXd to = MatrixXd::Identity(n, n), from = to;
   to.bottomRightCorner(d, d) = mass;
   from.bottomRightCorner(d, d) = mass.inverse();
   const MatrixXd canonical = to * undamped.value.mantissa * from;
-  const MatrixXd size = to.cwiseAbs() * (undamped.error + 8.0 * static_cast<double>(n) * kUnit * undamped.value.mantissa.cwiseAbs()) *
-                        from.cwiseAbs();
+  const MatrixXd size =
+      to.cwiseAbs() *
+      (undamped.error + 8.0 * static_cast<double>(n) * kUnit * undamped.value.mantissa.cwiseAbs()) *
+      from.cwiseAbs();
   const long exponent = undamped.value.exponent;
   if (d == 2) {
-    return reciprocal_stability({canonical.topLeftCorner<2, 2>(), canonical.topRightCorner<2, 2>(),
-                                 canonical.bottomLeftCorner<2, 2>(), canonical.bottomRightCorner<2, 2>(),
-                                 size.topLeftCorner<2, 2>(), size.topRightCorner<2, 2>(),
-                                 size.bottomLeftCorner<2, 2>(), size.bottomRightCorner<2, 2>()},
-                                exponent, half_damping);
+    return reciprocal_stability(
+        {canonical.topLeftCorner<2, 2>(), canonical.topRightCorner<2, 2>(),
+         canonical.bottomLeftCorner<2, 2>(), canonical.bottomRightCorner<2, 2>(), size.topLeftCorner<2, 2>(),
+         size.topRightCorner<2, 2>(), size.bottomLeftCorner<2, 2>(), size.bottomRightCorner<2, 2>()},
+        exponent, half_damping);
   }
   const double perturbation = 2.0 * size.norm();
   const auto eigen = lapack::eigenvalues(isotropic_restriction(sum_with_inverse(canonical)));
   std::vector<MultiplierSum> rho;
-  for (Eigen::Index j = 0; j < d; ++j) rho.push_back({eigen.values[j], kSafety * perturbation / eigen.condition[j]});
+  for (Eigen::Index j = 0; j < d; ++j)
+    rho.push_back({eigen.values[j], kSafety * perturbation / eigen.condition[j]});
   return stability_of(rho, any_collision(rho), exponent, half_damping);
 }
 

@@ -28,7 +28,8 @@ std::vector<Segment> subdivided(const std::vector<Segment>& pieces, const Period
     const auto piece = w.piece(0.5 * (start + end));
     const double log_growth = std::sqrt(std::max(0.0, -piece.lower_bound())) * (end - start);
     const double radians = std::sqrt(piece.bound()) * (end - start);
-    const double parts = std::max({1.0, std::ceil(log_growth / kLogGrowthPerSegment), std::ceil(radians / kRadiansPerSegment)});
+    const double parts = std::max(
+        {1.0, std::ceil(log_growth / kLogGrowthPerSegment), std::ceil(radians / kRadiansPerSegment)});
     if (!(static_cast<double>(result.size()) + parts <= kMostSegments)) return {};
     for (double j = 0.0; j < parts; ++j) {
       result.push_back({std::lerp(start, end, j / parts), std::lerp(start, end, (j + 1.0) / parts)});

@@ -17,16 +17,19 @@ constexpr double kLogLargest = 690.0;  // ln 1e300, rounded down
 constexpr double kLn2 = std::numbers::ln2;
 constexpr double kLn2Tail = 2.3190468138462996e-17;
 
-/// Writes matrix, trace and multipliers, all divided by one exp(log_scale) if the largest of them would pass 1e300.
+/// Writes matrix, trace and multipliers, all divided by one exp(log_scale) if the largest of them would pass
+/// 1e300.
 template <typename Matrix>
-void write_matrix(Stability& result, const BasicMonodromy<Matrix>& monodromy, const std::vector<Multiplier>& multipliers) {
+void write_matrix(Stability& result, const BasicMonodromy<Matrix>& monodromy,
+                  const std::vector<Multiplier>& multipliers) {
   const auto& m = monodromy.matrix.value;
   const Eigen::Index n = m.mantissa.rows(), d = n / 2;
   Eigen::MatrixXd matrix = m.mantissa;  // (q, q'/kappa) -> (q, q')
   matrix.topRightCorner(d, d) /= monodromy.kappa;
   matrix.bottomLeftCorner(d, d) *= monodromy.kappa;
   const auto exponent = static_cast<double>(m.exponent);
-  double largest = std::log(std::max(matrix.cwiseAbs().maxCoeff(), std::abs(matrix.trace()))) + exponent * kLn2;
+  double largest =
+      std::log(std::max(matrix.cwiseAbs().maxCoeff(), std::abs(matrix.trace()))) + exponent * kLn2;
   for (const auto& multiplier : multipliers) largest = std::max(largest, multiplier.log_modulus);
   const bool scaled = largest > kLogLargest;
   if (scaled) {
@@ -34,7 +37,8 @@ void write_matrix(Stability& result, const BasicMonodromy<Matrix>& monodromy, co
     const double rest = std::fma(exponent, kLn2, -result.log_scale) + exponent * kLn2Tail;
     matrix *= std::exp(rest);
   } else {
-    matrix = matrix.unaryExpr([e = static_cast<int>(std::max(m.exponent, -5000L))](double x) { return std::ldexp(x, e); });
+    matrix = matrix.unaryExpr(
+        [e = static_cast<int>(std::max(m.exponent, -5000L))](double x) { return std::ldexp(x, e); });
   }
   result.matrix = matrix;
   result.discriminant = matrix.trace();
@@ -139,14 +143,15 @@ Stability assess(const HillEquation& equation, const HillMonodromy& monodromy, c
          marginal ? 0.0 : hill_growth(discriminant, h), period);
   if (parts.winding) {
     const double c = equation.canonical_damping();
-    result.winding = winding_number(equation.coefficient.plus(-0.25 * c * c), monodromy.undamped, discriminant,
-                                    equation.canonical_kappa());
+    result.winding = winding_number(equation.coefficient.plus(-0.25 * c * c), monodromy.undamped,
+                                    discriminant, equation.canonical_kappa());
   }
   if (parts.matrix) write_matrix(result, monodromy, hill_multipliers(discriminant, h));
   return result;
 }
 
-Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy, const StabilityParts& parts) {
+Stability assess(const LinearPeriodicSystem& system, const Monodromy& monodromy,
+                 const StabilityParts& parts) {
   const DefaultFloatingPoint environment;
   auto result = begin(monodromy);
   if (!has_value(monodromy)) return result;

@@ -26,7 +26,8 @@ Bounded product(Bounded a, Bounded b) {
     const double ra = a.error / std::abs(a.value), rb = b.error / std::abs(b.value);
     return {p * (1.0 + ra * rb), std::abs(p) * (ra + rb + 2.0 * kUnit)};
   }
-  return {p, std::abs(a.value) * b.error + a.error * std::abs(b.value) + a.error * b.error + 2.0 * kUnit * std::abs(p)};
+  return {p, std::abs(a.value) * b.error + a.error * std::abs(b.value) + a.error * b.error +
+                 2.0 * kUnit * std::abs(p)};
 }
 
 Bounded entry(const BoundedMatrix2& m, int i, int j) { return {m.value.mantissa(i, j), m.error(i, j)}; }
@@ -56,7 +57,8 @@ DiscriminantGap from_factors(Bounded u1, Bounded u2, Bounded du1, Bounded du2, l
 
 DiscriminantGap from_period(const BoundedMatrix2& m) {
   const Bounded a = entry(m, 0, 0), d = entry(m, 1, 1);
-  auto result = from_trace({a.value + d.value, a.error + d.error + kUnit * std::abs(a.value + d.value)}, m.value.exponent);
+  auto result = from_trace({a.value + d.value, a.error + d.error + kUnit * std::abs(a.value + d.value)},
+                           m.value.exponent);
   const Bounded half_difference{0.5 * (a.value - d.value), 0.5 * (a.error + d.error)};
   const Bounded off = product(entry(m, 0, 1), entry(m, 1, 0));
   const double square = half_difference.value * half_difference.value;
@@ -64,8 +66,10 @@ DiscriminantGap from_period(const BoundedMatrix2& m) {
   const int shift = static_cast<int>(std::clamp(2 * m.value.exponent, -5000L, 5000L));
   const double gap = -4.0 * std::ldexp(square + off.value, shift) / size;
   const double square_error =
-      (2.0 * std::abs(half_difference.value) + half_difference.error) * half_difference.error + 2.0 * kUnit * square;
-  const double gap_error = 4.0 * std::ldexp(square_error + off.error, shift) / size + 4.0 * kUnit * std::abs(gap);
+      (2.0 * std::abs(half_difference.value) + half_difference.error) * half_difference.error +
+      2.0 * kUnit * square;
+  const double gap_error =
+      4.0 * std::ldexp(square_error + off.error, shift) / size + 4.0 * kUnit * std::abs(gap);
   if (gap_error < result.gap_error) {
     result.gap = gap;
     result.gap_error = gap_error;
@@ -79,7 +83,8 @@ double log_two_cosh(double h) { return h + std::log1p(std::exp(-2.0 * h)); }
 }  // namespace
 
 std::string_view to_string(Verdict verdict) {
-  static constexpr std::array<std::string_view, kVerdictCount> names = {"stable", "unstable", "boundary", "unresolved"};
+  static constexpr std::array<std::string_view, kVerdictCount> names = {"stable", "unstable", "boundary",
+                                                                        "unresolved"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -113,7 +118,8 @@ Margin hill_margin(const DiscriminantGap& d, double half_damping) {
   const double half_sinh = std::sinh(0.5 * h), two_cosh = 2.0 * std::cosh(h);
   const double allowance = 4.0 * half_sinh * half_sinh;  // 2 cosh h - 2
   const double h_error = 4.0 * kUnit * h;
-  const double error = d.gap_error + 2.0 * std::sinh(h) * h_error + 8.0 * kUnit * (std::abs(d.gap) + allowance);
+  const double error =
+      d.gap_error + 2.0 * std::sinh(h) * h_error + 8.0 * kUnit * (std::abs(d.gap) + allowance);
   return {(d.gap + allowance) / two_cosh, error / two_cosh};
 }
 

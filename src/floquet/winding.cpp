@@ -15,7 +15,8 @@ double winding_number(const PeriodicFunction& w, const BoundedMatrix2& undamped,
   const auto& n = undamped.value.mantissa;
   const double half_turns = lifted_angle(w, 2.0 * pi, n(0, 1), n(1, 1), kappa) / pi;
   if (!std::isfinite(half_turns)) return std::numeric_limits<double>::quiet_NaN();
-  if (d.gap <= 0.0) {  // in tongue n the vector is less than a half turn away from n half turns; the sign of D gives the parity
+  if (d.gap <= 0.0) {  // in tongue n the vector is less than a half turn away from n half turns; the sign of
+                       // D gives the parity
     const double parity = d.sign > 0 ? 0.0 : 1.0;
     return 0.5 * (parity + 2.0 * std::round((half_turns - parity) / 2.0));
   }

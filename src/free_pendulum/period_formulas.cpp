@@ -226,7 +226,9 @@ CheapestPeriod::CheapestPeriod(double tolerance) {
   const DefaultFloatingPoint environment;
   check_tolerance(tolerance);
   for (std::size_t i = 0; i < kPeriodFormulas.size(); ++i)
-    reach_[i] = tolerance > kFormulaRounding ? largest_amplitude(kPeriodFormulas[i], tolerance - kFormulaRounding) : -1.0;
+    reach_[i] = tolerance > kFormulaRounding
+                    ? largest_amplitude(kPeriodFormulas[i], tolerance - kFormulaRounding)
+                    : -1.0;
 }
 
 PeriodMethod CheapestPeriod::method(double amplitude) const {

@@ -31,13 +31,14 @@ Integrator make_integrator(int states, Backend backend) {
   return {states * states, IntegratorOptions{.backend = backend, .order = 8}};
 }
 
-IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wanted, double tolerance, double max_step,
-                       double radians_per_time) {
+IntegratorOptions with(IntegratorOptions options, const PropagatorOptions& wanted, double tolerance,
+                       double max_step, double radians_per_time) {
   options.relative_tolerance = tolerance;
   options.absolute_tolerance = tolerance;
   options.max_step = max_step;
   if (options.backend == Backend::arkode_erk) {
-    options.first_step = std::min(max_step, kFirstStepRadians * std::pow(tolerance, 0.125) / radians_per_time);
+    options.first_step =
+        std::min(max_step, kFirstStepRadians * std::pow(tolerance, 0.125) / radians_per_time);
   }
   options.max_steps = wanted.max_steps;
   options.max_seconds = wanted.max_seconds;
@@ -79,12 +80,14 @@ Propagation LinearPropagator::propagate(const RightHandSide& f, double from, dou
   result.check = result.matrix.value;
   const double size = state.cwiseAbs().maxCoeff();
   const auto steps = static_cast<double>(run.cost.steps);
-  const double rounding = kUnit * size * (kStepRounding + steps * (kRoundingPerStep + kRoundingPerStepRadian * radians)) +
-                          size * coefficient_error * radians;
+  const double rounding =
+      kUnit * size * (kStepRounding + steps * (kRoundingPerStep + kRoundingPerStepRadian * radians)) +
+      size * coefficient_error * radians;
   if (options.estimate_error && run.outcome == Outcome::converged) {
     const bool same_backend = backend_ == Backend::arkode_erk;
-    const double tolerance =
-        same_backend ? std::max(kCheckTolerance * options.local_tolerance, kLowestCheckTolerance) : options.local_tolerance;
+    const double tolerance = same_backend
+                                 ? std::max(kCheckTolerance * options.local_tolerance, kLowestCheckTolerance)
+                                 : options.local_tolerance;
     check_.set_options(with(check_.options(), options, tolerance, length / 4.0, radians_per_time));
     Eigen::VectorXd other = start;
     const auto check = check_.advance(f, from, to, other);

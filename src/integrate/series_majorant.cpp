@@ -8,7 +8,7 @@
 namespace strutt::detail {
 namespace {
 
-constexpr int kMostMiddles = 16;             // that are looked at one by one
+constexpr int kMostMiddles = 16;              // that are looked at one by one
 constexpr double kSumRounding = 1.0 + 1e-12;  // of sums of positive terms
 
 /// At any phase.

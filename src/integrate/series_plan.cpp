@@ -10,10 +10,10 @@
 namespace strutt::detail {
 namespace {
 
-constexpr double kTailShare = 0.05;     // of the tolerance: what becomes of a tail on its way, found by trial
+constexpr double kTailShare = 0.05;    // of the tolerance: what becomes of a tail on its way, found by trial
 constexpr double kGreatestStep = 7.0;  // r sqrt|W|; more is never cheaper
 constexpr double kSmallestStep = 1.2;  // less does not reduce rounding much
-constexpr int kMostCountedSteps = 16;         // whose nodes are looked at one by one
+constexpr int kMostCountedSteps = 16;  // whose nodes are looked at one by one
 constexpr double kPatience = 1.25;     // costs rise again once they are so much above the least
 
 std::vector<int> step_ladder() {

@@ -59,8 +59,10 @@ class CsvWriter : public ChartWriter {
   }
 
   void add_cell(std::size_t layer, double value) {
-    if (names_[layer].empty()) row_ += to_text(value);
-    else row_ += names_[layer].at(static_cast<std::size_t>(category_value(value)));
+    if (names_[layer].empty())
+      row_ += to_text(value);
+    else
+      row_ += names_[layer].at(static_cast<std::size_t>(category_value(value)));
   }
 
   OutputFile file_;
@@ -73,7 +75,8 @@ class CsvWriter : public ChartWriter {
 
 }  // namespace
 
-std::unique_ptr<ChartWriter> make_csv_writer(const std::filesystem::path& path, const ChartDescription& description) {
+std::unique_ptr<ChartWriter> make_csv_writer(const std::filesystem::path& path,
+                                             const ChartDescription& description) {
   return std::make_unique<CsvWriter>(path, description);
 }
 

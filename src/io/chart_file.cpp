@@ -50,11 +50,12 @@ void StripOrder::finish() const {
   if (next_row_ != rows_) throw std::logic_error("a chart is finished before its last row");
 }
 
-std::unique_ptr<ChartWriter> make_chart_writer(const std::filesystem::path& path, const ChartDescription& description) {
+std::unique_ptr<ChartWriter> make_chart_writer(const std::filesystem::path& path,
+                                               const ChartDescription& description) {
   if (path == "-") return make_csv_writer("/dev/stdout", description);
   const std::string ending = ending_of(path);
-  const auto* const format =
-      std::find_if(std::begin(kFormats), std::end(kFormats), [&](const Format& f) { return f.ending == ending; });
+  const auto* const format = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                          [&](const Format& f) { return f.ending == ending; });
   if (format != std::end(kFormats)) return format->make(path, description);
   if (is_device(path)) return make_csv_writer(path, description);
   throw InvalidInput("the format of '" + printable(path.string()) +
@@ -84,7 +85,8 @@ std::int8_t category_value(double value) { return static_cast<std::int8_t>(value
 std::size_t cell_bytes(Layer layer) { return is_categorical(layer) ? sizeof(std::int8_t) : sizeof(double); }
 
 std::string_view layer_bytes(Layer layer, std::span<const double> values, std::string& buffer) {
-  if (!is_categorical(layer)) return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+  if (!is_categorical(layer))
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
   buffer.resize(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) buffer[i] = static_cast<char>(category_value(values[i]));
   return buffer;

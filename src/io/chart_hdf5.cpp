@@ -19,11 +19,15 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-/// Layers as data sets with the axes attached as dimension scales: what netCDF and xarray call a labelled data set.
+/// Layers as data sets with the axes attached as dimension scales: what netCDF and xarray call a labelled
+/// data set.
 class Hdf5Writer : public ChartWriter {
  public:
   Hdf5Writer(const std::filesystem::path& path, const ChartDescription& description)
-      : output_(path), sink_{.name = path.string()}, request_(description.request), order_(description.request) {
+      : output_(path),
+        sink_{.name = path.string()},
+        request_(description.request),
+        order_(description.request) {
     hdf5::silence();
     file_ = create_file();
     describe_file(description);
@@ -64,19 +68,22 @@ class Hdf5Writer : public ChartWriter {
     const Provenance& provenance = description.provenance;
     write_attribute(file_, "Conventions", "CF-1.10", sink_);
     write_attribute(file_, "title", chart_title(description), sink_);
-    write_attribute(file_, "source", entry(provenance, "program") + " " + entry(provenance, "version"), sink_);
+    write_attribute(file_, "source", entry(provenance, "program") + " " + entry(provenance, "version"),
+                    sink_);
     write_attribute(file_, "history", entry(provenance, "date") + ": " + entry(provenance, "command"), sink_);
     write_attribute(file_, "provenance", json_text(provenance), sink_);
   }
 
   Handle create_data_set(const std::string& name, hid_t type, const std::vector<hsize_t>& shape) const {
-    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, sink_);
+    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+                       sink_);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, sink_);
     // Contiguous, and every cell is written once: no fill values beforehand.
     check(H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER), sink_);
     // No time of writing: the same chart is the same file. The date stands in the provenance.
     check(H5Pset_obj_track_times(properties, false), sink_);
-    return {H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose, sink_};
+    return {H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
+            sink_};
   }
 
   Handle create_axis(const char* name, const Axis& axis, const ParameterInfo& info) const {
@@ -131,7 +138,8 @@ class Hdf5Writer : public ChartWriter {
 
 }  // namespace
 
-std::unique_ptr<ChartWriter> make_hdf5_writer(const std::filesystem::path& path, const ChartDescription& description) {
+std::unique_ptr<ChartWriter> make_hdf5_writer(const std::filesystem::path& path,
+                                              const ChartDescription& description) {
   return std::make_unique<Hdf5Writer>(path, description);
 }
 

@@ -31,12 +31,18 @@ Json layer_json(Layer layer) {
 
 std::string_view long_name(Layer layer) {
   switch (layer) {
-    case Layer::verdict: return "verdict on stability";
-    case Layer::growth: return "growth per period, ln of the spectral radius";
-    case Layer::winding: return "winding number, Im of the characteristic exponent times T/(2 pi)";
-    case Layer::discriminant: return "discriminant, trace of the monodromy matrix";
-    case Layer::margin: return "margin of stability, 1 - |D|/(2 cosh(cT/2))";
-    case Layer::outcome: break;
+    case Layer::verdict:
+      return "verdict on stability";
+    case Layer::growth:
+      return "growth per period, ln of the spectral radius";
+    case Layer::winding:
+      return "winding number, Im of the characteristic exponent times T/(2 pi)";
+    case Layer::discriminant:
+      return "discriminant, trace of the monodromy matrix";
+    case Layer::margin:
+      return "margin of stability, 1 - |D|/(2 cosh(cT/2))";
+    case Layer::outcome:
+      break;
   }
   return "how the computation ended";
 }

@@ -11,7 +11,8 @@ namespace strutt {
 std::string npy_header(std::string_view type, const std::vector<std::size_t>& shape) {
   constexpr std::size_t alignment = 64, before_dictionary = 10;
   std::string dictionary = "{'descr': '" + std::string(type) + "', 'fortran_order': False, 'shape': (";
-  for (std::size_t i = 0; i < shape.size(); ++i) dictionary += (i == 0 ? "" : ", ") + std::to_string(shape[i]);
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    dictionary += (i == 0 ? "" : ", ") + std::to_string(shape[i]);
   dictionary += shape.size() == 1 ? ",), }" : "), }";
   const std::size_t used = before_dictionary + dictionary.size() + 1;
   dictionary.append((alignment - used % alignment) % alignment, ' ');
@@ -30,7 +31,9 @@ std::string layer_header(Layer layer, const ChartRequest& request) {
   return npy_header(is_categorical(layer) ? "|i1" : "<f8", {request.y.points, request.x.points});
 }
 
-std::string with_suffix(const std::filesystem::path& path, const char* suffix) { return path.string() + suffix; }
+std::string with_suffix(const std::filesystem::path& path, const char* suffix) {
+  return path.string() + suffix;
+}
 
 /// One layer, with the metadata in a file beside it.
 class NpyWriter : public ChartWriter {
@@ -168,15 +171,18 @@ class NpzWriter : public ChartWriter {
 
 }  // namespace
 
-std::unique_ptr<ChartWriter> make_npy_writer(const std::filesystem::path& path, const ChartDescription& description) {
+std::unique_ptr<ChartWriter> make_npy_writer(const std::filesystem::path& path,
+                                             const ChartDescription& description) {
   if (description.request.layers.size() != 1) {
-    throw InvalidInput("a .npy file holds one layer, not " + std::to_string(description.request.layers.size()) +
+    throw InvalidInput("a .npy file holds one layer, not " +
+                       std::to_string(description.request.layers.size()) +
                        ": choose one, or write a .npz file");
   }
   return std::make_unique<NpyWriter>(path, description);
 }
 
-std::unique_ptr<ChartWriter> make_npz_writer(const std::filesystem::path& path, const ChartDescription& description) {
+std::unique_ptr<ChartWriter> make_npz_writer(const std::filesystem::path& path,
+                                             const ChartDescription& description) {
   return std::make_unique<NpzWriter>(path, description);
 }
 

@@ -30,7 +30,8 @@ void check_end(const TomlTable& table, std::string_view key, const Scene& scene,
   });
 }
 
-Axis read_axis(const TomlTable& table, const Scene& scene, const std::string& name, std::size_t default_points) {
+Axis read_axis(const TomlTable& table, const Scene& scene, const std::string& name,
+               std::size_t default_points) {
   table.allow_only({"parameter", "from", "to", "points", "scale"});
   const auto& document = table.document();
   Axis axis;
@@ -41,7 +42,8 @@ Axis read_axis(const TomlTable& table, const Scene& scene, const std::string& na
   axis.to = table.number("to", unit);
   axis.points = default_points;
   if (const auto* points = table.find("points")) {
-    axis.points = static_cast<std::size_t>(document.integer(*points, table.path_of("points"), 1, kMostPoints));
+    axis.points =
+        static_cast<std::size_t>(document.integer(*points, table.path_of("points"), 1, kMostPoints));
   }
   if (table.choice("scale", {"linear", "log"}, true) == 1) axis.scale = AxisScale::logarithmic;
   located(document, table.require("from"), [&] {

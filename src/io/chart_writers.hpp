@@ -13,12 +13,17 @@
 namespace strutt {
 
 // One writer per format, each in the file chart_<format>.cpp.
-std::unique_ptr<ChartWriter> make_csv_writer(const std::filesystem::path& path, const ChartDescription& description);
-std::unique_ptr<ChartWriter> make_npy_writer(const std::filesystem::path& path, const ChartDescription& description);
-std::unique_ptr<ChartWriter> make_npz_writer(const std::filesystem::path& path, const ChartDescription& description);
-std::unique_ptr<ChartWriter> make_hdf5_writer(const std::filesystem::path& path, const ChartDescription& description);
+std::unique_ptr<ChartWriter> make_csv_writer(const std::filesystem::path& path,
+                                             const ChartDescription& description);
+std::unique_ptr<ChartWriter> make_npy_writer(const std::filesystem::path& path,
+                                             const ChartDescription& description);
+std::unique_ptr<ChartWriter> make_npz_writer(const std::filesystem::path& path,
+                                             const ChartDescription& description);
+std::unique_ptr<ChartWriter> make_hdf5_writer(const std::filesystem::path& path,
+                                              const ChartDescription& description);
 
-/// Sees that strips come in order of rows and cover the chart; anything else is a bug of the caller (std::logic_error).
+/// Sees that strips come in order of rows and cover the chart; anything else is a bug of the caller
+/// (std::logic_error).
 class StripOrder {
  public:
   explicit StripOrder(const ChartRequest& request);
@@ -38,8 +43,8 @@ std::vector<double> axis_values(const Axis& axis);
 /// The value of a categorical cell as the small integer of binary files.
 std::int8_t category_value(double value);
 
-/// A row or more of a layer as the bytes of binary files: int8 for categorical layers (through `buffer`), otherwise
-/// float64. Little-endian, like every machine this is built for.
+/// A row or more of a layer as the bytes of binary files: int8 for categorical layers (through `buffer`),
+/// otherwise float64. Little-endian, like every machine this is built for.
 std::string_view layer_bytes(Layer layer, std::span<const double> values, std::string& buffer);
 
 /// Bytes of one cell of the layer in binary files.

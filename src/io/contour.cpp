@@ -47,10 +47,13 @@ class Tracer {
       if (above(corner[k])) code |= 1U << k;
     }
     if (code == 0 || code == 15) return;
-    const Edge bottom = 2 * node, right = 2 * (node + 1) + 1, top = 2 * (node + columns_), left = 2 * node + 1;
+    const Edge bottom = 2 * node, right = 2 * (node + 1) + 1, top = 2 * (node + columns_),
+               left = 2 * node + 1;
     if (code == 5 || code == 10) {  // a saddle: the middle decides which corners belong together
-      const double middle = (static_cast<double>(values_[corner[0]]) + static_cast<double>(values_[corner[1]]) +
-                             static_cast<double>(values_[corner[2]]) + static_cast<double>(values_[corner[3]])) / 4.0;
+      const double middle =
+          (static_cast<double>(values_[corner[0]]) + static_cast<double>(values_[corner[1]]) +
+           static_cast<double>(values_[corner[2]]) + static_cast<double>(values_[corner[3]])) /
+          4.0;
       const bool first_joined = (middle > level_) == (code == 5);
       link(bottom, first_joined ? right : left);
       link(top, first_joined ? left : right);
@@ -69,8 +72,10 @@ class Tracer {
   void link(Edge a, Edge b) {
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
       auto [place, fresh] = links_.try_emplace(from, to, kNone);
-      if (fresh) order_.push_back(from);
-      else place->second.second = to;
+      if (fresh)
+        order_.push_back(from);
+      else
+        place->second.second = to;
     }
   }
 
@@ -84,7 +89,8 @@ class Tracer {
       line.push_back(point(edge));
       const auto [a, b] = links_.at(edge);
       const Edge next = a != kNone && !done(a) ? a : b;
-      if ((a == start || b == start) && line.size() > 2 && (next == kNone || done(next))) line.push_back(line.front());
+      if ((a == start || b == start) && line.size() > 2 && (next == kNone || done(next)))
+        line.push_back(line.front());
       edge = next;
     }
     return line;
@@ -119,7 +125,8 @@ std::vector<ContourLine> contour_lines(const std::vector<float>& values, std::si
 double length_of(const ContourLine& line, double column_unit, double row_unit) {
   double length = 0.0;
   for (std::size_t i = 1; i < line.size(); ++i) {
-    length += std::hypot((line[i].column - line[i - 1].column) * column_unit, (line[i].row - line[i - 1].row) * row_unit);
+    length += std::hypot((line[i].column - line[i - 1].column) * column_unit,
+                         (line[i].row - line[i - 1].row) * row_unit);
   }
   return length;
 }

@@ -14,8 +14,8 @@ struct GridPoint {
 /// A line of equal value; closed if its ends are the same point.
 using ContourLine = std::vector<GridPoint>;
 
-/// The lines on which values[row * columns + column], interpolated linearly between neighbours, is `level` (marching squares).
-/// Squares with a NaN at a corner hold no line, so a line may end inside the grid.
+/// The lines on which values[row * columns + column], interpolated linearly between neighbours, is `level`
+/// (marching squares). Squares with a NaN at a corner hold no line, so a line may end inside the grid.
 std::vector<ContourLine> contour_lines(const std::vector<float>& values, std::size_t columns, double level);
 
 /// Length in units of the grid after the factors.

@@ -15,8 +15,9 @@ struct CsvCell {
   int column = 1;
 };
 
-/// Cuts a CSV file into rows of cells, one row in memory at a time. Skips comment lines, and blank lines before the
-/// header and at the end. Throws FileError for bytes that no CSV file of numbers contains, InputOutputError.
+/// Cuts a CSV file into rows of cells, one row in memory at a time. Skips comment lines, and blank lines
+/// before the header and at the end. Throws FileError for bytes that no CSV file of numbers contains,
+/// InputOutputError.
 class CsvReader {
  public:
   /// `name` stands for the file in messages.

@@ -14,7 +14,8 @@ constexpr std::size_t kWideLabel = 9;
 constexpr double kShortDecades = 3.1;
 constexpr double kSlack = 1e-9;
 
-/// The number with so many digits after the point; far from 1 as a multiple of a power of ten (in gnuplot's markup).
+/// The number with so many digits after the point; far from 1 as a multiple of a power of ten (in gnuplot's
+/// markup).
 std::string number_label(double value, double step) {
   if (value == 0.0) return "0";
   const int step_exponent = static_cast<int>(std::floor(std::log10(step) + kSlack));
@@ -38,7 +39,8 @@ std::vector<Tick> linear_ticks_at_most(const Axis& axis, int most) {
   const double step = round_up_125((high - low) / most);
   std::vector<Tick> ticks;
   if (!(step > 0.0) || !std::isfinite(step)) return ticks;
-  for (double k = std::ceil(low / step - kSlack); k * step <= high + kSlack * step && ticks.size() < 50; k += 1.0) {
+  for (double k = std::ceil(low / step - kSlack); k * step <= high + kSlack * step && ticks.size() < 50;
+       k += 1.0) {
     const double value = std::abs(k) < 0.5 ? 0.0 : k * step;
     ticks.push_back({(value - axis.from) / (axis.to - axis.from), number_label(value, step)});
     if (!((k + 1.0) * step > k * step)) break;  // a range of a few roundings
@@ -48,7 +50,8 @@ std::vector<Tick> linear_ticks_at_most(const Axis& axis, int most) {
 
 std::vector<Tick> linear_ticks(const Axis& axis) {
   auto ticks = linear_ticks_at_most(axis, kMostTicks);
-  const bool wide = std::any_of(ticks.begin(), ticks.end(), [](const Tick& t) { return t.label.size() > kWideLabel; });
+  const bool wide =
+      std::any_of(ticks.begin(), ticks.end(), [](const Tick& t) { return t.label.size() > kWideLabel; });
   return wide ? linear_ticks_at_most(axis, kMostWideTicks) : ticks;
 }
 
@@ -64,9 +67,11 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
       const double exponent = decade + std::log10(lead);
       if (exponent < low - kSlack || exponent > high + kSlack || (lead > 1 && high - low > 12.0)) continue;
       const double value = sign * lead * std::pow(10.0, decade);
-      const bool labelled = lead == 1 ? decade % every == 0 : short_range && (lead == 2 || lead == 5 || high - low < 0.7);
+      const bool labelled =
+          lead == 1 ? decade % every == 0 : short_range && (lead == 2 || lead == 5 || high - low < 0.7);
       const std::string power = fmt::format("{}10^{{{}}}", sign < 0 ? "-" : "", decade);
-      const std::string label = lead == 1 && !short_range ? power : number_label(value, std::pow(10.0, decade));
+      const std::string label =
+          lead == 1 && !short_range ? power : number_label(value, std::pow(10.0, decade));
       ticks.push_back({(exponent - from) / (to - from), labelled ? label : ""});
     }
   }

@@ -14,7 +14,8 @@ struct Tick {
   std::string label;
 };
 
-/// Marks at round numbers, for linear and logarithmic, reversed, tiny and huge ranges. One point has one mark in the middle.
+/// Marks at round numbers, for linear and logarithmic, reversed, tiny and huge ranges. One point has one mark
+/// in the middle.
 std::vector<Tick> axis_ticks(const Axis& axis);
 
 /// `label [unit]`.

@@ -21,7 +21,9 @@ std::vector<std::size_t> thinned(std::size_t count, std::size_t most) {
   const std::size_t kept = std::min(count, most);
   std::vector<std::size_t> indices(kept);
   for (std::size_t k = 0; k < kept; ++k) {
-    const double exact = kept == 1 ? 0.0 : static_cast<double>(k) * static_cast<double>(count - 1) / static_cast<double>(kept - 1);
+    const double exact =
+        kept == 1 ? 0.0
+                  : static_cast<double>(k) * static_cast<double>(count - 1) / static_cast<double>(kept - 1);
     indices[k] = static_cast<std::size_t>(std::llround(exact));
   }
   return indices;
@@ -37,13 +39,14 @@ std::size_t position_of(const ChartRequest& request, Layer layer) {
 
 Colour mixed(Colour a, Colour b, double t) {
   Colour result{};
-  for (std::size_t k = 0; k < 3; ++k) result[k] = static_cast<unsigned char>(std::lround(std::lerp(a[k], b[k], t)));
+  for (std::size_t k = 0; k < 3; ++k)
+    result[k] = static_cast<unsigned char>(std::lround(std::lerp(a[k], b[k], t)));
   return result;
 }
 
-/// theta^2 with margin = 1 - cos(theta), theta imaginary where the margin is negative: close to linear in the parameters
-/// across an edge. The margin itself falls to -1e300; between such a cell and a stable one, a linear interpolation of it
-/// would put the edge onto the stable one.
+/// theta^2 with margin = 1 - cos(theta), theta imaginary where the margin is negative: close to linear in the
+/// parameters across an edge. The margin itself falls to -1e300; between such a cell and a stable one, a
+/// linear interpolation of it would put the edge onto the stable one.
 double squared_angle(double margin) {
   const double cosine = 1.0 - margin;
   if (!(cosine > 1.0)) return std::pow(std::acos(std::clamp(cosine, -1.0, 1.0)), 2);
@@ -113,7 +116,8 @@ GrowthScale growth_scale(const FigureData& data) {
   std::vector<float> unstable;
   for (std::size_t i = 0; i < data.growth().size(); ++i) {
     const float growth = data.growth()[i];
-    if (data.verdict()[i] == static_cast<float>(Verdict::unstable) && growth > 0.0F && std::isfinite(growth)) {
+    if (data.verdict()[i] == static_cast<float>(Verdict::unstable) && growth > 0.0F &&
+        std::isfinite(growth)) {
       unstable.push_back(growth);
     }
   }
@@ -138,7 +142,8 @@ std::string image_bytes(const FigureData& data, const GrowthScale& scale, std::s
     std::string row;
     for (std::size_t i = 0; i < data.columns(); ++i) {
       const std::size_t at = j * data.columns() + i;
-      const Colour colour = cell_colour(static_cast<double>(data.verdict()[at]), static_cast<double>(data.growth()[at]), scale);
+      const Colour colour =
+          cell_colour(static_cast<double>(data.verdict()[at]), static_cast<double>(data.growth()[at]), scale);
       for (std::size_t k = 0; k < repeat; ++k) row.append(colour.begin(), colour.end());
     }
     for (std::size_t k = 0; k < repeat; ++k) bytes += row;

@@ -26,8 +26,8 @@ class FigureData {
   const std::vector<float>& growth() const { return layers_[1]; }
   /// As a function of it that crosses 0 evenly, with the same sign.
   const std::vector<float>& margin() const { return layers_[2]; }
-  /// growth^2 where there is growth, -margin() elsewhere: close to linear in the parameters up to the edge, so that
-  /// lines of equal growth do not follow the cells there.
+  /// growth^2 where there is growth, -margin() elsewhere: close to linear in the parameters up to the edge,
+  /// so that lines of equal growth do not follow the cells there.
   std::vector<float> signed_growth_squared() const;
 
  private:

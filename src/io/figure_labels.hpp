@@ -23,7 +23,8 @@ struct PlotSize {
   std::size_t rows = 2;
 };
 
-/// Puts values on lines, in a gap that it cuts into them, apart from each other, from the frame and from other lines.
+/// Puts values on lines, in a gap that it cuts into them, apart from each other, from the frame and from
+/// other lines.
 class LabelPlacer {
  public:
   LabelPlacer(const PlotSize& size, const std::vector<ContourLine>& others);

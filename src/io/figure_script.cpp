@@ -21,7 +21,9 @@ constexpr const char* kGrowthLineColour = "#5A1A00";
 double half_cell(std::size_t cells) { return cells > 1 ? 0.5 / static_cast<double>(cells - 1) : 0.5; }
 
 /// Position of a cell on its axis: 0 ... 1; the only cell of an axis stands in the middle.
-double position(double cell, std::size_t cells) { return cells > 1 ? cell / static_cast<double>(cells - 1) : 0.5; }
+double position(double cell, std::size_t cells) {
+  return cells > 1 ? cell / static_cast<double>(cells - 1) : 0.5;
+}
 
 std::string range(std::size_t cells) {
   const double half = cells > 1 ? half_cell(cells) : 0.0;
@@ -31,11 +33,11 @@ std::string range(std::size_t cells) {
 std::string axis_commands(char name, const Axis& axis, const ParameterInfo& info, std::size_t cells) {
   std::string ticks;
   for (const auto& tick : axis_ticks(axis)) {
-    ticks += fmt::format("{}{} {:.9g} {}", ticks.empty() ? "" : ", ", gnuplot_string(tick.label), tick.position,
-                         tick.label.empty() ? 1 : 0);
+    ticks += fmt::format("{}{} {:.9g} {}", ticks.empty() ? "" : ", ", gnuplot_string(tick.label),
+                         tick.position, tick.label.empty() ? 1 : 0);
   }
-  return fmt::format("set {0}range {1}\nset {0}tics nomirror out ({2})\nset {0}label {3} noenhanced\n", name, range(cells),
-                     ticks, gnuplot_string(axis_label(axis, info)));
+  return fmt::format("set {0}range {1}\nset {0}tics nomirror out ({2})\nset {0}label {3} noenhanced\n", name,
+                     range(cells), ticks, gnuplot_string(axis_label(axis, info)));
 }
 
 std::string colour_bar(const GrowthScale& scale) {
@@ -43,7 +45,8 @@ std::string colour_bar(const GrowthScale& scale) {
   std::string stops;
   for (int k = 0; k <= kPaletteSteps; ++k) {
     const double t = static_cast<double>(k) / kPaletteSteps;  // denser where the colour changes fast
-    stops += fmt::format("{}{:.6g} '{}'", k == 0 ? "" : ", ", t * t, hexadecimal(scale.colour(t * t * scale.largest)));
+    stops += fmt::format("{}{:.6g} '{}'", k == 0 ? "" : ", ", t * t,
+                         hexadecimal(scale.colour(t * t * scale.largest)));
   }
   return fmt::format(
       "set palette defined ({})\nset cbrange [0:{:.9g}]\nset cbtics out nomirror\n"
@@ -53,12 +56,14 @@ std::string colour_bar(const GrowthScale& scale) {
 }
 
 bool occurs(const FigureData& data, Verdict verdict) {
-  return std::find(data.verdict().begin(), data.verdict().end(), static_cast<float>(verdict)) != data.verdict().end();
+  return std::find(data.verdict().begin(), data.verdict().end(), static_cast<float>(verdict)) !=
+         data.verdict().end();
 }
 
 std::string key_box(const std::string& colour, const std::string& title) {
-  return fmt::format(", keyentry with boxes fillstyle solid 1.0 border lc rgb '#606060' fillcolor rgb '{}' title {}", colour,
-                     gnuplot_string(title));
+  return fmt::format(
+      ", keyentry with boxes fillstyle solid 1.0 border lc rgb '#606060' fillcolor rgb '{}' title {}", colour,
+      gnuplot_string(title));
 }
 
 std::string key_boxes(const FigureData& data) {
@@ -85,8 +90,9 @@ std::string image(const FigureData& data, std::size_t repeat) {
 std::string label_commands(const std::vector<LineLabel>& labels) {
   std::string text;
   for (const auto& label : labels) {
-    text += fmt::format("set label {} at {:.5f},{:.5f} center rotate by {:.1f} front font ',15' textcolor rgb '{}'\n",
-                        gnuplot_string(label.text), label.x, label.y, label.degrees, kGrowthLineColour);
+    text += fmt::format(
+        "set label {} at {:.5f},{:.5f} center rotate by {:.1f} front font ',15' textcolor rgb '{}'\n",
+        gnuplot_string(label.text), label.x, label.y, label.degrees, kGrowthLineColour);
   }
   return text;
 }
@@ -109,22 +115,24 @@ std::string line_data(const std::vector<ContourLine>& lines, const FigureData& d
   return text;
 }
 
-std::string figure_script(const ChartDescription& description, const FigureData& data, const FigureContent& content) {
+std::string figure_script(const ChartDescription& description, const FigureData& data,
+                          const FigureContent& content) {
   const ChartRequest& request = description.request;
   std::string text = fmt::format(
       "set encoding utf8\nset terminal {}\nset output '{}'\nset title {} noenhanced\n"
-      "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n"
+      "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
+      "{}\n"
       "set border 15 linewidth 0.7 front\nset tics front\nset boxwidth 1\n"
       "set key at screen {},0.012 center bottom horizontal Left reverse samplen 2 width 1 maxrows 2\n",
-      gnuplot_terminal(content.format), kPictureFile, gnuplot_string(chart_title(description)), kLeft, kRight, kBottom, kTop,
-      (kLeft + kRight) / 2);
+      gnuplot_terminal(content.format), kPictureFile, gnuplot_string(chart_title(description)), kLeft, kRight,
+      kBottom, kTop, (kLeft + kRight) / 2);
   text += axis_commands('x', request.x, description.x, data.columns());
   text += axis_commands('y', request.y, description.y, data.rows());
   text += colour_bar(content.scale) + label_commands(content.labels);
   text += "plot " + image(data, content.repeat);
   if (content.has_growth_lines) {
-    text += fmt::format(", '{}' with lines linewidth 0.6 linecolor rgb '{}' title 'equal growth'", kGrowthFile,
-                        kGrowthLineColour);
+    text += fmt::format(", '{}' with lines linewidth 0.6 linecolor rgb '{}' title 'equal growth'",
+                        kGrowthFile, kGrowthLineColour);
   }
   // the contour through the cells follows edges of combination resonances in steps
   if (content.has_edges && !content.tongues.by_mechanism()) {

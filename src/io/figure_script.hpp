@@ -31,7 +31,8 @@ struct FigureContent {
 };
 
 /// The gnuplot script.
-std::string figure_script(const ChartDescription& description, const FigureData& data, const FigureContent& content);
+std::string figure_script(const ChartDescription& description, const FigureData& data,
+                          const FigureContent& content);
 
 /// Lines for `plot ... with lines`, in units of the plotting area.
 std::string line_data(const std::vector<ContourLine>& lines, const FigureData& data);

@@ -64,7 +64,8 @@ int wait_for(pid_t child, bool& interrupted) {
 
 void require_gnuplot(const std::filesystem::path& figure) {
   const char* const variable = std::getenv("PATH");
-  const std::string path = variable == nullptr ? "/bin:/usr/bin" : variable;  // what posix_spawnp falls back to
+  const std::string path =
+      variable == nullptr ? "/bin:/usr/bin" : variable;  // what posix_spawnp falls back to
   for (std::size_t begin = 0; begin <= path.size();) {
     const auto end = std::min(path.find(':', begin), path.size());
     const std::filesystem::path directory = path.substr(begin, end - begin);
@@ -118,7 +119,8 @@ void GnuplotRun::run(const std::string& script, const std::filesystem::path& fig
   const int status = wait_for(child, interrupted);
   if (interrupted) throw InputOutputError(what, EINTR);
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  throw InputOutputError(what + ": gnuplot failed: " + printable(read_file(directory_ / kLog, kLongestLog)), 0);
+  throw InputOutputError(what + ": gnuplot failed: " + printable(read_file(directory_ / kLog, kLongestLog)),
+                         0);
 }
 
 }  // namespace strutt

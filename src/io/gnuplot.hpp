@@ -6,8 +6,8 @@
 
 namespace strutt {
 
-/// Throws InputOutputError naming `figure` unless the program gnuplot is in the PATH: to be asked before a long
-/// computation.
+/// Throws InputOutputError naming `figure` unless the program gnuplot is in the PATH: to be asked before a
+/// long computation.
 void require_gnuplot(const std::filesystem::path& figure);
 
 /// A text as gnuplot's single-quoted string: no escapes and no command substitution inside.
@@ -25,8 +25,8 @@ class GnuplotRun {
   std::filesystem::path operator/(std::string_view name) const { return directory_ / name; }
   void write(std::string_view name, std::string_view bytes) const;
 
-  /// Runs gnuplot on the file `script` of the directory, as its working directory. Throws InputOutputError naming
-  /// `figure` when gnuplot is missing or complains.
+  /// Runs gnuplot on the file `script` of the directory, as its working directory. Throws InputOutputError
+  /// naming `figure` when gnuplot is missing or complains.
   void run(const std::string& script, const std::filesystem::path& figure) const;
 
  private:

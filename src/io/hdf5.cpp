@@ -59,7 +59,8 @@ void write_flag_values(hid_t object, int count, const Sink& sink) {
   std::iota(values.begin(), values.end(), static_cast<signed char>(0));
   const hsize_t size = values.size();
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, sink);
-  Handle attribute(H5Acreate2(object, "flag_values", H5T_STD_I8LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, sink);
+  Handle attribute(H5Acreate2(object, "flag_values", H5T_STD_I8LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                   sink);
   check(H5Awrite(attribute, H5T_NATIVE_SCHAR, values.data()), sink);
   check(attribute.close(), sink);
 }

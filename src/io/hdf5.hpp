@@ -8,10 +8,12 @@
 
 namespace strutt::hdf5 {
 
-/// Throws InputOutputError with the error that the sink has kept, else the innermost reason on the stack of HDF5.
+/// Throws InputOutputError with the error that the sink has kept, else the innermost reason on the stack of
+/// HDF5.
 [[noreturn]] void fail(const Sink& sink);
 
-/// An HDF5 identifier that is closed with its object. A failed close is an error only where `close` is called.
+/// An HDF5 identifier that is closed with its object. A failed close is an error only where `close` is
+/// called.
 class Handle {
  public:
   using Closer = herr_t (*)(hid_t);

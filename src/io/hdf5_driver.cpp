@@ -90,7 +90,8 @@ static herr_t strutt_h5_read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, s
   return 0;
 }
 
-static herr_t strutt_h5_write(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size, const void* buffer) {
+static herr_t strutt_h5_write(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size,
+                              const void* buffer) {
   File& file = file_of(base);
   const auto* from = static_cast<const char*>(buffer);
   file.size = std::max<haddr_t>(file.size, address + size);

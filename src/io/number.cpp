@@ -11,7 +11,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// What the grammar [+-] digits [. digits] [e [+-] digits] finds in a text.
 struct Decimal {
   bool valid = false;
-  long magnitude = 0;  ///< of the first digit that is not 0, as a power of ten; meaningless if all digits are 0
+  long magnitude =
+      0;  ///< of the first digit that is not 0, as a power of ten; meaningless if all digits are 0
   bool zero = true;
 };
 

@@ -19,8 +19,8 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 constexpr std::size_t kLongestName = 255;
 constexpr int kAttempts = 100;
 
-/// The descriptor N that `path` names as /dev/fd/N, /proc/self/fd/N or /dev/stdout, -1 for other paths. Such a name must
-/// not be opened anew: a second opening of a redirected file would begin at its start again.
+/// The descriptor N that `path` names as /dev/fd/N, /proc/self/fd/N or /dev/stdout, -1 for other paths. Such
+/// a name must not be opened anew: a second opening of a redirected file would begin at its start again.
 int named_descriptor(const std::filesystem::path& path) {
   const std::string text = path.lexically_normal().string();
   if (text == "/dev/stdout") return STDOUT_FILENO;
@@ -93,7 +93,8 @@ void OutputFile::State::open() {
 }
 
 void OutputFile::State::open_directly(int named) {
-  fd = named >= 0 ? ::fcntl(named, F_DUPFD_CLOEXEC, 3) : ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  fd = named >= 0 ? ::fcntl(named, F_DUPFD_CLOEXEC, 3)
+                  : ::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   if (fd < 0) fail("cannot write", errno);
 }
 
@@ -120,8 +121,9 @@ void OutputFile::State::open_temporary() {
 void OutputFile::State::put(std::uint64_t offset, std::string_view bytes) {
   prepared = false;
   while (!bytes.empty()) {
-    const ssize_t done = temporary.empty() ? ::write(fd, bytes.data(), bytes.size())
-                                           : ::pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    const ssize_t done = temporary.empty()
+                             ? ::write(fd, bytes.data(), bytes.size())
+                             : ::pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (done < 0 && errno == EINTR) continue;
     if (done < 0) fail("cannot write", errno);
     if (done == 0) fail("cannot write", ENOSPC);

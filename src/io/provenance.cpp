@@ -41,8 +41,8 @@ std::string utc_date() {
   const std::time_t now = build_time();
   std::tm parts{};
   if (gmtime_r(&now, &parts) == nullptr) return "unknown";
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
-                     parts.tm_hour, parts.tm_min, parts.tm_sec);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
 std::string compiler() {
@@ -58,16 +58,18 @@ std::string sundials_version() {
   return SUNDIALSGetVersion(text, static_cast<int>(sizeof text)) == 0 ? text : "unknown";
 }
 
-/// The library versions: of the headers where the code is compiled in, of the loaded library where it can tell.
+/// The library versions: of the headers where the code is compiled in, of the loaded library where it can
+/// tell.
 std::string libraries() {
   const int fmt_version = FMT_VERSION;
   return fmt::format(
       "SUNDIALS {}, Eigen {}.{}.{}, Boost {}.{}.{}, HDF5 {}.{}.{}, toml++ {}.{}.{}, nlohmann-json {}.{}.{}, "
       "fmt {}.{}.{}, zlib {}",
-      sundials_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, BOOST_VERSION / 100000,
-      BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE, TOML_LIB_MAJOR,
-      TOML_LIB_MINOR, TOML_LIB_PATCH, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-      NLOHMANN_JSON_VERSION_PATCH, fmt_version / 10000, fmt_version / 100 % 100, fmt_version % 100, zlibVersion());
+      sundials_version(), EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+      BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, H5_VERS_MAJOR, H5_VERS_MINOR,
+      H5_VERS_RELEASE, TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH, NLOHMANN_JSON_VERSION_MAJOR,
+      NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, fmt_version / 10000, fmt_version / 100 % 100,
+      fmt_version % 100, zlibVersion());
 }
 
 }  // namespace
@@ -89,7 +91,9 @@ std::string comment_lines(const Provenance& provenance) {
     result += "# " + printable(name) + ": ";
     for (std::size_t begin = 0;;) {
       const auto end = value.find('\n', begin);
-      result += printable(std::string_view(value).substr(begin, end == std::string::npos ? end : end - begin)) + "\n";
+      result +=
+          printable(std::string_view(value).substr(begin, end == std::string::npos ? end : end - begin)) +
+          "\n";
       if (end == std::string::npos || end + 1 == value.size()) break;
       begin = end + 1;
       result += "#   ";

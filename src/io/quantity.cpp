@@ -13,8 +13,8 @@
 namespace strutt {
 namespace {
 
-/// A unit as a multiple of the SI unit: factor * 10^shift. Powers of ten are shifted in the decimal text, so that "7 cm"
-/// is the double nearest to 0.07.
+/// A unit as a multiple of the SI unit: factor * 10^shift. Powers of ten are shifted in the decimal text, so
+/// that "7 cm" is the double nearest to 0.07.
 struct Unit {
   std::string_view name;
   std::string_view dimension;
@@ -25,20 +25,54 @@ struct Unit {
 constexpr long double kPi = std::numbers::pi_v<long double>;
 
 constexpr std::array kUnits{
-    Unit{"m", "m"}, Unit{"km", "m", 3}, Unit{"cm", "m", -2}, Unit{"mm", "m", -3}, Unit{"um", "m", -6},
-    Unit{"nm", "m", -9}, Unit{"in", "m", 0, 0.0254L}, Unit{"ft", "m", 0, 0.3048L},
-    Unit{"rad/s", "rad/s"}, Unit{"krad/s", "rad/s", 3}, Unit{"Hz", "rad/s", 0, 2 * kPi},
-    Unit{"kHz", "rad/s", 3, 2 * kPi}, Unit{"mHz", "rad/s", -3, 2 * kPi}, Unit{"rpm", "rad/s", 0, kPi / 30},
-    Unit{"1/min", "rad/s", 0, kPi / 30}, Unit{"deg/s", "rad/s", 0, kPi / 180},
-    Unit{"1/s", "1/s"}, Unit{"s^-1", "1/s"}, Unit{"1/ms", "1/s", 3},
-    Unit{"rad", "rad"}, Unit{"mrad", "rad", -3}, Unit{"deg", "rad", 0, kPi / 180}, Unit{"\u00B0", "rad", 0, kPi / 180},
-    Unit{"kg", "kg"}, Unit{"g", "kg", -3}, Unit{"mg", "kg", -6}, Unit{"t", "kg", 3},
-    Unit{"kg m^2", "kg m^2"}, Unit{"g m^2", "kg m^2", -3}, Unit{"kg cm^2", "kg m^2", -4},
-    Unit{"g cm^2", "kg m^2", -7}, Unit{"kg mm^2", "kg m^2", -6},
-    Unit{"m/s^2", "m/s^2"}, Unit{"cm/s^2", "m/s^2", -2}, Unit{"mm/s^2", "m/s^2", -3},
-    Unit{"N m", "N m"}, Unit{"Nm", "N m"}, Unit{"kN m", "N m", 3}, Unit{"mN m", "N m", -3}, Unit{"N cm", "N m", -2},
-    Unit{"N mm", "N m", -3}, Unit{"kNm", "N m", 3}, Unit{"mNm", "N m", -3},
-    Unit{"s", "s"}, Unit{"ms", "s", -3}, Unit{"us", "s", -6}, Unit{"min", "s", 0, 60.0L}, Unit{"h", "s", 0, 3600.0L},
+    Unit{"m", "m"},
+    Unit{"km", "m", 3},
+    Unit{"cm", "m", -2},
+    Unit{"mm", "m", -3},
+    Unit{"um", "m", -6},
+    Unit{"nm", "m", -9},
+    Unit{"in", "m", 0, 0.0254L},
+    Unit{"ft", "m", 0, 0.3048L},
+    Unit{"rad/s", "rad/s"},
+    Unit{"krad/s", "rad/s", 3},
+    Unit{"Hz", "rad/s", 0, 2 * kPi},
+    Unit{"kHz", "rad/s", 3, 2 * kPi},
+    Unit{"mHz", "rad/s", -3, 2 * kPi},
+    Unit{"rpm", "rad/s", 0, kPi / 30},
+    Unit{"1/min", "rad/s", 0, kPi / 30},
+    Unit{"deg/s", "rad/s", 0, kPi / 180},
+    Unit{"1/s", "1/s"},
+    Unit{"s^-1", "1/s"},
+    Unit{"1/ms", "1/s", 3},
+    Unit{"rad", "rad"},
+    Unit{"mrad", "rad", -3},
+    Unit{"deg", "rad", 0, kPi / 180},
+    Unit{"\u00B0", "rad", 0, kPi / 180},
+    Unit{"kg", "kg"},
+    Unit{"g", "kg", -3},
+    Unit{"mg", "kg", -6},
+    Unit{"t", "kg", 3},
+    Unit{"kg m^2", "kg m^2"},
+    Unit{"g m^2", "kg m^2", -3},
+    Unit{"kg cm^2", "kg m^2", -4},
+    Unit{"g cm^2", "kg m^2", -7},
+    Unit{"kg mm^2", "kg m^2", -6},
+    Unit{"m/s^2", "m/s^2"},
+    Unit{"cm/s^2", "m/s^2", -2},
+    Unit{"mm/s^2", "m/s^2", -3},
+    Unit{"N m", "N m"},
+    Unit{"Nm", "N m"},
+    Unit{"kN m", "N m", 3},
+    Unit{"mN m", "N m", -3},
+    Unit{"N cm", "N m", -2},
+    Unit{"N mm", "N m", -3},
+    Unit{"kNm", "N m", 3},
+    Unit{"mNm", "N m", -3},
+    Unit{"s", "s"},
+    Unit{"ms", "s", -3},
+    Unit{"us", "s", -6},
+    Unit{"min", "s", 0, 60.0L},
+    Unit{"h", "s", 0, 3600.0L},
 };
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {

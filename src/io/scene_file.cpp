@@ -7,7 +7,8 @@
 namespace strutt {
 namespace {
 
-/// Says where the value stands that `validate` complains about: its message begins with the path of the value.
+/// Says where the value stands that `validate` complains about: its message begins with the path of the
+/// value.
 [[noreturn]] void fail_located(const TomlDocument& document, const std::string& message) {
   const toml::source_region* best = &document.root().source();
   std::size_t length = 0;
@@ -20,8 +21,8 @@ namespace {
   document.fail(*best, message);
 }
 
-/// Values that are each in their range can still make no equation together: a length of 1e-300 m, a frequency of
-/// 1e-300 rad/s. The table that they stand in is named.
+/// Values that are each in their range can still make no equation together: a length of 1e-300 m, a frequency
+/// of 1e-300 rad/s. The table that they stand in is named.
 void check_equation(const TomlDocument& document, const Scene& scene) {
   const auto check = [&](const std::string& table, const auto& make) {
     try {
@@ -32,7 +33,10 @@ void check_equation(const TomlDocument& document, const Scene& scene) {
   };
   if (scene.pendulum) check("pendulum", [&] { pendulum(scene).validate(); });
   const char* pendulum_table = scene.support ? "support" : "pendulum";
-  check(scene.mathieu ? "mathieu" : scene.hill ? "hill" : scene.linear ? "linear" : pendulum_table,
+  check(scene.mathieu  ? "mathieu"
+        : scene.hill   ? "hill"
+        : scene.linear ? "linear"
+                       : pendulum_table,
         [&] { (void)linear_model(scene); });
 }
 
@@ -41,7 +45,8 @@ void check_equation(const TomlDocument& document, const Scene& scene) {
 SceneFile parse_scene(std::string_view text, const std::string& name) {
   const TomlDocument document(text, name);
   const auto directory = std::filesystem::path(name).parent_path();
-  SceneFile result{.file = name, .scene = read_scene_tables(document, directory.empty() ? "." : directory), .chart = {}};
+  SceneFile result{
+      .file = name, .scene = read_scene_tables(document, directory.empty() ? "." : directory), .chart = {}};
   try {
     validate(result.scene);
   } catch (const FileError&) {

@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kHighestOrder = 10000;
 
-/// Goes over a list of harmonics: checks the keys and the order, and hands each table to `take(table, order)`.
+/// Goes over a list of harmonics: checks the keys and the order, and hands each table to `take(table,
+/// order)`.
 template <typename Take>
 void read_harmonic_list(const TomlTable& owner, const Take& take) {
   if (!owner.has("harmonics")) return;
@@ -22,7 +23,8 @@ void read_harmonic_list(const TomlTable& owner, const Take& take) {
     const TomlTable table(document, *node, path);
     table.allow_only({"order", "cos", "sin"});
     const auto& order_node = table.require("order");
-    const int order = static_cast<int>(document.integer(order_node, table.path_of("order"), 1, kHighestOrder));
+    const int order =
+        static_cast<int>(document.integer(order_node, table.path_of("order"), 1, kHighestOrder));
     if (std::find(seen.begin(), seen.end(), order) != seen.end()) {
       document.fail(order_node, path + " has order " + std::to_string(order) + " twice");
     }
@@ -45,7 +47,8 @@ PendulumTable read_pendulum(const TomlTable& table) {
   constexpr std::array shapes{Shape::rod, Shape::point_mass, Shape::body};
   PendulumTable p;
   p.shape = shapes[table.choice("shape", {"rod", "point_mass", "body"}, true)];
-  p.about = table.choice("about", {"hanging", "inverted"}, true) == 0 ? Equilibrium::hanging : Equilibrium::inverted;
+  p.about = table.choice("about", {"hanging", "inverted"}, true) == 0 ? Equilibrium::hanging
+                                                                      : Equilibrium::inverted;
   p.mass = table.number_or("mass", "kg", p.mass, Range::positive);
   p.gravity = table.number_or("gravity", "m/s^2", p.gravity, Range::positive);
   p.damping = table.number_or("damping", "1/s", p.damping, Range::not_negative);
@@ -77,7 +80,8 @@ std::vector<double> read_samples(const TomlTable& table, const std::filesystem::
   }
   const std::string file = table.text("samples");
   if (file.empty()) document.fail(node, table.path_of("samples") + " must be the name of a CSV file");
-  const auto samples = read_table(directory / file, {.required = {"r"}, .optional = {}, .units = {{"r", "m"}}});
+  const auto samples =
+      read_table(directory / file, {.required = {"r"}, .optional = {}, .units = {{"r", "m"}}});
   for (const auto& row : samples.rows) values.push_back(row[0]);
   return values;
 }
@@ -116,10 +120,12 @@ MomentTable read_moment(const TomlTable& table, const std::optional<SupportTable
   m.harmonics = read_harmonics(table, "N m");
   if (table.has("frequency")) m.frequency = table.number("frequency", "rad/s", Range::positive);
   if (support && m.frequency && *m.frequency != support->frequency) {
-    table.fail("frequency", "moment.frequency = " + to_text(*m.frequency) + " must equal support.frequency = " +
-                                to_text(support->frequency) + ", or be left out");
+    table.fail("frequency", "moment.frequency = " + to_text(*m.frequency) +
+                                " must equal support.frequency = " + to_text(support->frequency) +
+                                ", or be left out");
   }
-  if (support) m.frequency.reset();  // one value, not two: the moment follows when support.frequency is varied
+  if (support)
+    m.frequency.reset();  // one value, not two: the moment follows when support.frequency is varied
   if (!support && !m.frequency && !m.harmonics.empty()) {
     table.fail("moment.frequency is missing: there are harmonics and no [support]");
   }
@@ -163,8 +169,8 @@ Eigen::MatrixXd read_sized_matrix(const TomlTable& table, std::string_view key, 
   if (!table.has(key)) return Eigen::MatrixXd::Zero(size, size);
   auto matrix = read_matrix(table.document(), *table.find(key), table.path_of(key));
   if (size == 0 || matrix.rows() == size) return matrix;
-  table.fail(key, table.path_of(key) + " has " + std::to_string(matrix.rows()) + " rows, the other matrices have " +
-                      std::to_string(size));
+  table.fail(key, table.path_of(key) + " has " + std::to_string(matrix.rows()) +
+                      " rows, the other matrices have " + std::to_string(size));
 }
 
 PeriodicMatrix read_periodic_matrix(const TomlTable& table, Eigen::Index size) {
@@ -188,9 +194,11 @@ LinearPeriodicSystem read_linear(const TomlTable& table) {
   stiffness.require("mean");
   system.stiffness = read_periodic_matrix(stiffness, 0);
   const auto size = system.stiffness.mean.rows();
-  system.mass = table.has("mass") ? read_sized_matrix(table, "mass", size) : Eigen::MatrixXd::Identity(size, size);
+  system.mass =
+      table.has("mass") ? read_sized_matrix(table, "mass", size) : Eigen::MatrixXd::Identity(size, size);
   if (table.has("damping")) {
-    system.damping = read_periodic_matrix({document, table.require("damping"), table.path_of("damping")}, size);
+    system.damping =
+        read_periodic_matrix({document, table.require("damping"), table.path_of("damping")}, size);
   }
   return system;
 }
@@ -209,10 +217,12 @@ void check_tables(const TomlDocument& document) {
   for (const auto* name : {"pendulum", "mathieu", "hill", "linear"}) {
     const auto* node = document.root().get(name);
     if (node == nullptr) continue;
-    if (!model.empty()) document.fail(*node, "[" + model + "] and [" + name + "] exclude each other: a scene has one model");
+    if (!model.empty())
+      document.fail(*node, "[" + model + "] and [" + name + "] exclude each other: a scene has one model");
     model = name;
   }
-  if (model.empty()) document.fail(document.root(), "there is no model: one of [pendulum], [mathieu], [hill], [linear]");
+  if (model.empty())
+    document.fail(document.root(), "there is no model: one of [pendulum], [mathieu], [hill], [linear]");
   for (const auto* name : {"support", "moment"}) {
     const auto* node = document.root().get(name);
     if (node != nullptr && model != "pendulum") {

@@ -7,7 +7,8 @@
 
 namespace strutt {
 
-/// All tables of the scene but [chart], each value checked where it stands. Sample files are looked for in `directory`.
+/// All tables of the scene but [chart], each value checked where it stands. Sample files are looked for in
+/// `directory`.
 Scene read_scene_tables(const TomlDocument& document, const std::filesystem::path& directory);
 
 /// The [chart] table, against the parameters of the scene.

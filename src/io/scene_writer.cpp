@@ -12,7 +12,9 @@ std::string real(double value) {
   return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 
-void line(std::string& out, const char* key, const std::string& value) { out += std::string(key) + " = " + value + "\n"; }
+void line(std::string& out, const char* key, const std::string& value) {
+  out += std::string(key) + " = " + value + "\n";
+}
 
 void line(std::string& out, const char* key, double value) { line(out, key, real(value)); }
 
@@ -36,8 +38,8 @@ std::string matrix(const Eigen::MatrixXd& values) {
 void add_harmonics(std::string& out, const std::vector<Harmonic>& harmonics) {
   std::string text;
   for (const auto& h : harmonics) {
-    text += (text.empty() ? "{ order = " : ", { order = ") + std::to_string(h.order) + ", cos = " + real(h.cosine) +
-            ", sin = " + real(h.sine) + " }";
+    text += (text.empty() ? "{ order = " : ", { order = ") + std::to_string(h.order) +
+            ", cos = " + real(h.cosine) + ", sin = " + real(h.sine) + " }";
   }
   line(out, "harmonics", "[" + text + "]");
 }
@@ -58,7 +60,10 @@ std::string periodic_matrix(const PeriodicMatrix& m) {
 void add(std::string& out, const PendulumTable& p) {
   using Shape = PendulumTable::Shape;
   out += "[pendulum]\n";
-  line(out, "shape", toml_string(p.shape == Shape::rod ? "rod" : p.shape == Shape::point_mass ? "point_mass" : "body"));
+  line(out, "shape",
+       toml_string(p.shape == Shape::rod          ? "rod"
+                   : p.shape == Shape::point_mass ? "point_mass"
+                                                  : "body"));
   line(out, "mass", p.mass);
   if (p.shape == Shape::body) {
     line(out, "inertia", p.inertia);
@@ -117,8 +122,8 @@ void add(std::string& out, const LinearPeriodicSystem& l) {
 }
 
 std::string axis(const Axis& a) {
-  std::string text = "{ parameter = " + toml_string(a.parameter) + ", from = " + real(a.from) + ", to = " + real(a.to) +
-                     ", points = " + std::to_string(a.points);
+  std::string text = "{ parameter = " + toml_string(a.parameter) + ", from = " + real(a.from) +
+                     ", to = " + real(a.to) + ", points = " + std::to_string(a.points);
   if (a.scale == AxisScale::logarithmic) text += ", scale = \"log\"";
   return text + " }";
 }
@@ -129,7 +134,8 @@ void add(std::string& out, const ChartTable& chart) {
   if (chart.y) line(out, "y", axis(*chart.y));
   if (chart.layers) {
     std::string names;
-    for (const Layer layer : *chart.layers) names += (names.empty() ? "" : ", ") + toml_string(to_string(layer));
+    for (const Layer layer : *chart.layers)
+      names += (names.empty() ? "" : ", ") + toml_string(to_string(layer));
     line(out, "layers", "[" + names + "]");
   }
   if (chart.tolerance) line(out, "tolerance", *chart.tolerance);

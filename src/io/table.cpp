@@ -54,13 +54,15 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 void check_name(const CsvReader& reader, const CsvCell& cell, const std::string& name,
                 const std::vector<std::string>& seen, const std::vector<std::string>& known) {
   if (name.empty()) reader.fail(cell, "a column has no name");
-  if (contains(seen, name)) reader.fail(cell, "the column '" + printable(name) + "' stands here a second time");
+  if (contains(seen, name))
+    reader.fail(cell, "the column '" + printable(name) + "' stands here a second time");
   if (contains(known, name)) return;
   reader.fail(cell, "unknown column '" + printable(name) + "'" + suggestion(name, known));
 }
 
 /// A decimal number, checked before, in the unit of its column.
-double converted(const CsvReader& reader, const CsvCell& cell, const std::string& number, const Header& header) {
+double converted(const CsvReader& reader, const CsvCell& cell, const std::string& number,
+                 const Header& header) {
   try {
     return parse_quantity(number + " " + header.unit, header.dimension);
   } catch (const InvalidInput& error) {
@@ -81,7 +83,8 @@ std::vector<Header> read_header(CsvReader& reader, const TableSchema& schema) {
   }
   for (const auto& name : schema.required) {
     if (!contains(names, name)) {
-      reader.fail(cells.front(), "the column '" + name + "' is missing; the columns are " + printable_list(names));
+      reader.fail(cells.front(),
+                  "the column '" + name + "' is missing; the columns are " + printable_list(names));
     }
   }
   return headers;
@@ -119,7 +122,8 @@ FileError::FileError(const std::string& file, int line, int column, const std::s
 std::size_t NumericTable::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found != columns.end()) return static_cast<std::size_t>(found - columns.begin());
-  throw FileError(file, 0, 0, "there is no column '" + printable(name) + "'; the columns are " + printable_list(columns));
+  throw FileError(file, 0, 0,
+                  "there is no column '" + printable(name) + "'; the columns are " + printable_list(columns));
 }
 
 FileError NumericTable::error_at(std::size_t row, std::size_t column, const std::string& what) const {
@@ -130,7 +134,8 @@ NumericTable read_table(const std::filesystem::path& path, const TableSchema& sc
   NumericTable table;
   table.file = path == "-" ? "standard input" : path.string();
   CsvReader reader(path, table.file);
-  if (!reader.next()) throw FileError(table.file, 1, 1, "the file is empty: a line with column names is missing");
+  if (!reader.next())
+    throw FileError(table.file, 1, 1, "the file is empty: a line with column names is missing");
   const auto headers = read_header(reader, schema);
   for (const auto& header : headers) table.columns.push_back(header.name);
   while (reader.next()) {

@@ -34,8 +34,8 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// Without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The whole file (`-`: standard input). Reading stops after `limit` + 1 bytes: a longer result means a larger file.
-/// Throws InputOutputError.
+/// The whole file (`-`: standard input). Reading stops after `limit` + 1 bytes: a longer result means a
+/// larger file. Throws InputOutputError.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
 }  // namespace strutt

@@ -13,13 +13,19 @@ namespace {
 
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::string: return "a text";
-    case toml::node_type::boolean: return "a boolean";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
+    case toml::node_type::boolean:
+      return "a boolean";
     case toml::node_type::integer:
-    case toml::node_type::floating_point: return "a number";
-    default: return "a date or time";
+    case toml::node_type::floating_point:
+      return "a number";
+    default:
+      return "a date or time";
   }
 }
 
@@ -41,7 +47,8 @@ toml::table parse(const std::string& text, const std::string& name) {
     return toml::parse(std::string_view(text));
   } catch (const toml::parse_error& error) {
     const auto& where = error.source().begin;
-    throw FileError(name, static_cast<int>(where.line), static_cast<int>(where.column), printable(error.description()));
+    throw FileError(name, static_cast<int>(where.line), static_cast<int>(where.column),
+                    printable(error.description()));
   }
 }
 
@@ -54,7 +61,8 @@ void TomlDocument::fail(const toml::source_region& where, const std::string& wha
   throw FileError(name_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), what);
 }
 
-double TomlDocument::number(const toml::node& node, const std::string& path, std::string_view dimension) const {
+double TomlDocument::number(const toml::node& node, const std::string& path,
+                            std::string_view dimension) const {
   remember(path, node);
   if (const auto* text = node.as_string()) {
     try {
@@ -65,8 +73,9 @@ double TomlDocument::number(const toml::node& node, const std::string& path, std
   }
   if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
   const auto* real = node.as_floating_point();
-  if (real == nullptr) fail(node, path + " must be a number" + (dimension.empty() ? "" : " or a text with a unit") +
-                                      ", not " + kind_of(node));
+  if (real == nullptr)
+    fail(node, path + " must be a number" + (dimension.empty() ? "" : " or a text with a unit") + ", not " +
+                   kind_of(node));
   const auto& where = node.source().begin;
   const auto written = source_.numbers.find({static_cast<int>(where.line), static_cast<int>(where.column)});
   if (written == source_.numbers.end()) {
@@ -108,11 +117,13 @@ const toml::node& TomlTable::require(std::string_view key) const {
 double TomlTable::number(std::string_view key, std::string_view dimension, Range range) const {
   const auto& node = require(key);
   const double value = document_->number(node, path_of(key), dimension);
-  if (!is_in(range, value)) document_->fail(node, InvalidInput(path_of(key), to_text(value), allowed(range)).what());
+  if (!is_in(range, value))
+    document_->fail(node, InvalidInput(path_of(key), to_text(value), allowed(range)).what());
   return value;
 }
 
-double TomlTable::number_or(std::string_view key, std::string_view dimension, double fallback, Range range) const {
+double TomlTable::number_or(std::string_view key, std::string_view dimension, double fallback,
+                            Range range) const {
   return has(key) ? number(key, dimension, range) : fallback;
 }
 
@@ -123,7 +134,8 @@ std::string TomlTable::text(std::string_view key) const {
   document_->fail(node, path_of(key) + " must be a text, not " + kind_of(node));
 }
 
-std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string>& choices, bool optional) const {
+std::size_t TomlTable::choice(std::string_view key, const std::vector<std::string>& choices,
+                              bool optional) const {
   if (optional && !has(key)) return 0;
   const std::string value = text(key);
   const auto found = std::find(choices.begin(), choices.end(), value);
@@ -136,15 +148,18 @@ std::size_t TomlTable::choice(std::string_view key, const std::vector<std::strin
 }
 
 void TomlTable::allow_only(const std::vector<std::string>& known) const {
-  const toml::key* first = nullptr;  // toml++ sorts keys by name; the first in the file is what the reader looks for
+  const toml::key* first =
+      nullptr;  // toml++ sorts keys by name; the first in the file is what the reader looks for
   for (const auto& [key, node] : *table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    const auto position = [](const toml::key& k) { return std::pair(k.source().begin.line, k.source().begin.column); };
+    const auto position = [](const toml::key& k) {
+      return std::pair(k.source().begin.line, k.source().begin.column);
+    };
     if (first == nullptr || position(key) < position(*first)) first = &key;
   }
   if (first == nullptr) return;
-  document_->fail(first->source(),
-                  "unknown key " + in_quotes(first->str()) + " in [" + path_ + "]" + suggestion(first->str(), known));
+  document_->fail(first->source(), "unknown key " + in_quotes(first->str()) + " in [" + path_ + "]" +
+                                       suggestion(first->str(), known));
 }
 
 void TomlTable::exclude(std::string_view a, std::string_view b) const {
@@ -171,13 +186,14 @@ std::vector<const toml::node*> read_list(const TomlDocument& document, const tom
 Eigen::MatrixXd read_matrix(const TomlDocument& document, const toml::node& node, const std::string& path) {
   const auto row_nodes = read_list(document, node, path);
   if (row_nodes.empty()) document.fail(node, path + " is empty: it must be a square matrix, a list of rows");
-  std::vector<std::vector<const toml::node*>> rows;  // all of them before the matrix: its size is then what was typed
+  std::vector<std::vector<const toml::node*>>
+      rows;  // all of them before the matrix: its size is then what was typed
   for (const auto* row_node : row_nodes) {
     rows.push_back(read_list(document, *row_node, path + "." + std::to_string(rows.size())));
     if (rows.back().size() == row_nodes.size()) continue;
-    document.fail(*row_node, path + " must be square: it has " + std::to_string(row_nodes.size()) + " rows, but row " +
-                                 std::to_string(rows.size() - 1) + " has " + std::to_string(rows.back().size()) +
-                                 " entries");
+    document.fail(*row_node, path + " must be square: it has " + std::to_string(row_nodes.size()) +
+                                 " rows, but row " + std::to_string(rows.size() - 1) + " has " +
+                                 std::to_string(rows.back().size()) + " entries");
   }
   const auto size = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd result(size, size);

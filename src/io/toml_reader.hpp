@@ -25,8 +25,8 @@ class TomlDocument {
   [[noreturn]] void fail(const toml::source_region& where, const std::string& what) const;
   [[noreturn]] void fail(const toml::node& node, const std::string& what) const { fail(node.source(), what); }
 
-  /// The number that stands at this node, correctly rounded; a string is a quantity with a unit of `dimension`.
-  /// Remembers that `path` stands there.
+  /// The number that stands at this node, correctly rounded; a string is a quantity with a unit of
+  /// `dimension`. Remembers that `path` stands there.
   double number(const toml::node& node, const std::string& path, std::string_view dimension) const;
 
   /// An integer in [least, most]; 3.0 is none.
@@ -47,7 +47,8 @@ class TomlDocument {
 /// Which values a number may have.
 enum class Range { finite, positive, not_negative };
 
-/// One table of the document, read key by key; keys that nobody asked for are errors. `path` is how messages call it.
+/// One table of the document, read key by key; keys that nobody asked for are errors. `path` is how messages
+/// call it.
 class TomlTable {
  public:
   TomlTable(const TomlDocument& document, const toml::node& node, std::string path);
@@ -87,6 +88,7 @@ class TomlTable {
 Eigen::MatrixXd read_matrix(const TomlDocument& document, const toml::node& node, const std::string& path);
 
 /// The elements of an array of tables; throws FileError for anything else.
-std::vector<const toml::node*> read_list(const TomlDocument& document, const toml::node& node, const std::string& path);
+std::vector<const toml::node*> read_list(const TomlDocument& document, const toml::node& node,
+                                         const std::string& path);
 
 }  // namespace strutt

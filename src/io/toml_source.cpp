@@ -10,14 +10,15 @@ constexpr std::size_t kSafeIntegerDigits = 18;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_word(char c) {
-  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '-' || c == '_' ||
-         c == '.';
+  return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '-' ||
+         c == '_' || c == '.';
 }
 
 /// Goes over digits with single underscores between them; returns false if there are none.
 bool skip_digits(std::string_view word, std::size_t& at) {
   if (at >= word.size() || !is_digit(word[at])) return false;
-  while (at < word.size() && (is_digit(word[at]) || (word[at] == '_' && at + 1 < word.size() && is_digit(word[at + 1])))) {
+  while (at < word.size() &&
+         (is_digit(word[at]) || (word[at] == '_' && at + 1 < word.size() && is_digit(word[at + 1])))) {
     ++at;
   }
   return true;
@@ -29,7 +30,8 @@ bool needs_own_conversion(std::string_view word) {
   const std::size_t first = at;
   if (!skip_digits(word, at)) return false;
   const std::size_t integer_digits = at - first;
-  if (word[first] == '0' && integer_digits > 1) return false;  // no leading zeros in TOML: the parser complains
+  if (word[first] == '0' && integer_digits > 1)
+    return false;  // no leading zeros in TOML: the parser complains
   if (at == word.size()) return integer_digits > kSafeIntegerDigits;
   if (word[at] == '.' && !skip_digits(word, ++at)) return false;
   if (at < word.size() && (word[at] == 'e' || word[at] == 'E')) {
@@ -51,7 +53,9 @@ class Scanner {
   }
 
  private:
-  char here(std::size_t ahead = 0) const { return at_ + ahead < source_.text.size() ? source_.text[at_ + ahead] : '\0'; }
+  char here(std::size_t ahead = 0) const {
+    return at_ + ahead < source_.text.size() ? source_.text[at_ + ahead] : '\0';
+  }
 
   void advance(std::size_t count = 1) {
     for (; count > 0 && at_ < source_.text.size(); --count, ++at_) {
@@ -112,7 +116,8 @@ class Scanner {
         continue;
       }
       if (!block && here() == '\n') return;  // not closed: the parser will say so
-      if (here() == quote && (!block || (here(1) == quote && here(2) == quote))) return close_string(quote, block);
+      if (here() == quote && (!block || (here(1) == quote && here(2) == quote)))
+        return close_string(quote, block);
       advance();
     }
   }
@@ -139,7 +144,8 @@ class Scanner {
     advance(word.size());
   }
 
-  /// Dots outside numbers are levels of a key. Between brackets a word can be part of a key with blanks around its dots.
+  /// Dots outside numbers are levels of a key. Between brackets a word can be part of a key with blanks
+  /// around its dots.
   void count_dots(const std::string& word) {
     if (needs_own_conversion(word)) return;
     for (const char c : word) dots_ += c == '.' ? 1 : 0;
@@ -170,7 +176,8 @@ TomlSource prepare_toml(std::string_view text, const std::string& name) {
   if (text.size() > kLargestScene) throw FileError(name, 0, 0, "the file is larger than 1 MiB");
   text = without_byte_order_mark(text);
   const auto problem = find_text_problem(text);
-  if (!problem.problem.empty()) throw FileError(name, problem.where.line, problem.where.column, problem.problem);
+  if (!problem.problem.empty())
+    throw FileError(name, problem.where.line, problem.where.column, problem.problem);
   return Scanner(text, name).run();
 }
 

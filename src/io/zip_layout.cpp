@@ -36,7 +36,8 @@ std::uint16_t short_of(std::uint64_t value) { return static_cast<std::uint16_t>(
 
 }  // namespace
 
-ZipLayout::ZipLayout(std::vector<ZipMember> members, std::uint64_t limit) : members_(std::move(members)), limit_(limit) {
+ZipLayout::ZipLayout(std::vector<ZipMember> members, std::uint64_t limit)
+    : members_(std::move(members)), limit_(limit) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     offsets_.push_back(directory_offset_);
     directory_offset_ += local_header_size(i) + members_[i].size;
@@ -48,15 +49,17 @@ std::uint64_t ZipLayout::local_header_size(std::size_t member) const {
   return kLocalFixedSize + m.name.size() + (is_large(m.size) ? kLocalExtraSize : 0);
 }
 
-std::uint64_t ZipLayout::data_offset(std::size_t member) const { return offsets_[member] + local_header_size(member); }
+std::uint64_t ZipLayout::data_offset(std::size_t member) const {
+  return offsets_[member] + local_header_size(member);
+}
 
 std::string ZipLayout::local_header(std::size_t member, std::uint32_t crc) const {
   const auto& m = members_[member];
   const bool large = is_large(m.size);
   const std::uint32_t size = large ? 0xFFFFFFFF : static_cast<std::uint32_t>(m.size);
   std::string out;
-  put_all(out, kLocalSignature, large ? kVersion64 : kVersion, kUtf8Name, std::uint16_t{0}, kMidnight, kFirstOf1980, crc,
-          size, size, short_of(m.name.size()), short_of(large ? kLocalExtraSize : 0));
+  put_all(out, kLocalSignature, large ? kVersion64 : kVersion, kUtf8Name, std::uint16_t{0}, kMidnight,
+          kFirstOf1980, crc, size, size, short_of(m.name.size()), short_of(large ? kLocalExtraSize : 0));
   out += m.name;
   if (large) put_all(out, kExtra64, std::uint16_t{16}, m.size, m.size);
   return out;
@@ -75,7 +78,8 @@ std::string ZipLayout::directory_entry(std::size_t member, std::uint32_t crc) co
   put_all(out, kCentralSignature, static_cast<std::uint16_t>(kMadeByUnix | version), version, kUtf8Name,
           std::uint16_t{0}, kMidnight, kFirstOf1980, crc, size, size, short_of(m.name.size()),
           short_of(large ? extra.size() + 4 : 0), std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0},
-          kRegularFileMode, is_large(offset) ? std::uint32_t{0xFFFFFFFF} : static_cast<std::uint32_t>(offset));
+          kRegularFileMode,
+          is_large(offset) ? std::uint32_t{0xFFFFFFFF} : static_cast<std::uint32_t>(offset));
   out += m.name;
   if (large) {
     put_all(out, kExtra64, short_of(extra.size()));
@@ -90,13 +94,15 @@ std::string ZipLayout::end_records(std::uint64_t directory_size) const {
   std::string out;
   if (large) {
     constexpr std::uint64_t rest_of_record = 44;
-    put_all(out, kEnd64Signature, rest_of_record, static_cast<std::uint16_t>(kMadeByUnix | kVersion64), kVersion64,
-            std::uint32_t{0}, std::uint32_t{0}, entries, entries, directory_size, directory_offset_);
+    put_all(out, kEnd64Signature, rest_of_record, static_cast<std::uint16_t>(kMadeByUnix | kVersion64),
+            kVersion64, std::uint32_t{0}, std::uint32_t{0}, entries, entries, directory_size,
+            directory_offset_);
     put_all(out, kLocator64Signature, std::uint32_t{0}, directory_offset_ + directory_size, std::uint32_t{1});
   }
   put_all(out, kEndSignature, std::uint16_t{0}, std::uint16_t{0}, short_of(entries), short_of(entries),
           large ? std::uint32_t{0xFFFFFFFF} : static_cast<std::uint32_t>(directory_size),
-          large ? std::uint32_t{0xFFFFFFFF} : static_cast<std::uint32_t>(directory_offset_), std::uint16_t{0});
+          large ? std::uint32_t{0xFFFFFFFF} : static_cast<std::uint32_t>(directory_offset_),
+          std::uint16_t{0});
   return out;
 }
 

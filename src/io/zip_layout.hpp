@@ -12,9 +12,9 @@ struct ZipMember {
   std::uint64_t size = 0;
 };
 
-/// Where everything stands in a ZIP archive of uncompressed members, and the bytes around the data. The checksums are
-/// wanted only at the end: data first, headers afterwards, each at its place. Sizes and offsets from `limit` on go
-/// into ZIP64 fields.
+/// Where everything stands in a ZIP archive of uncompressed members, and the bytes around the data. The
+/// checksums are wanted only at the end: data first, headers afterwards, each at its place. Sizes and offsets
+/// from `limit` on go into ZIP64 fields.
 class ZipLayout {
  public:
   static constexpr std::uint64_t kLimit = 0xFFFFFFFF;

@@ -6,7 +6,8 @@
 namespace strutt {
 
 Excitation sinusoidal_support(double amplitude, double frequency, double phase) {
-  return {frequency, PeriodicFunction::fourier(0.0, {{1, amplitude * std::sin(phase), amplitude * std::cos(phase)}})};
+  return {frequency,
+          PeriodicFunction::fourier(0.0, {{1, amplitude * std::sin(phase), amplitude * std::cos(phase)}})};
 }
 
 Excitation square_acceleration_support(double amplitude, double frequency, double phase) {

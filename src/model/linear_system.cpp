@@ -75,9 +75,11 @@ std::optional<double> LinearPeriodicSystem::proportional_damping() const {
 
 void LinearPeriodicSystem::validate() const {
   require(period > 0.0 && std::isfinite(period), "linear.period", period, "a finite number > 0");
-  if (mass.rows() == 0 || mass.rows() != mass.cols()) throw InvalidInput("linear.mass", "matrix", "square, not empty");
+  if (mass.rows() == 0 || mass.rows() != mass.cols())
+    throw InvalidInput("linear.mass", "matrix", "square, not empty");
   if (!mass.allFinite()) throw InvalidInput("linear.mass", "matrix", "finite in every entry");
-  if (!Eigen::FullPivLU<Eigen::MatrixXd>(mass).isInvertible()) throw InvalidInput("linear.mass", "matrix", "invertible");
+  if (!Eigen::FullPivLU<Eigen::MatrixXd>(mass).isInvertible())
+    throw InvalidInput("linear.mass", "matrix", "invertible");
   if (stiffness.mean.size() == 0) throw InvalidInput("linear.stiffness", "nothing", "given");
   check_shape(stiffness, mass.rows(), "linear.stiffness");
   check_shape(damping, mass.rows(), "linear.damping");

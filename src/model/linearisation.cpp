@@ -10,7 +10,8 @@
 namespace strutt {
 namespace {
 
-// Roundings between the inputs and a coefficient of W: alpha^2 (3), omega^2 (1), their quotient (1), the harmonic (3).
+// Roundings between the inputs and a coefficient of W: alpha^2 (3), omega^2 (1), their quotient (1), the
+// harmonic (3).
 constexpr double kCoefficientError = 8.0 * 0x1p-53;
 
 }  // namespace
@@ -34,8 +35,7 @@ LinearisedPendulum linearise(const PhysicalPendulum& pendulum, Equilibrium about
     // An underflow must not prove that delta is 0.
     const double delta = std::max(alpha_squared / (omega * omega), std::numeric_limits<double>::denorm_min());
     const auto acceleration = support->function.derivative().derivative();  // per theta^2
-    equation.coefficient =
-        acceleration.scaled(sign * (alpha_squared / pendulum.gravity)).plus(sign * delta);
+    equation.coefficient = acceleration.scaled(sign * (alpha_squared / pendulum.gravity)).plus(sign * delta);
     equation.coefficient_error = kCoefficientError;
   }
   equation.validate();

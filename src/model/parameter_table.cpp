@@ -17,7 +17,8 @@ void add(Table& table, const std::string& path, const char* unit, double& value)
   table.push_back({{path, unit, label_of(path)}, &value});
 }
 
-void add_harmonics(Table& table, const std::string& path, const char* unit, std::vector<Harmonic>& harmonics) {
+void add_harmonics(Table& table, const std::string& path, const char* unit,
+                   std::vector<Harmonic>& harmonics) {
   for (auto& h : harmonics) {
     const std::string order = path + ".harmonics." + std::to_string(h.order);
     add(table, order + ".cos", unit, h.cosine);

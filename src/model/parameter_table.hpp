@@ -12,8 +12,8 @@ struct ParameterEntry {
   double* value;
 };
 
-/// Every parameter of the scene, in the order of the scene file. The pointers live as long as the scene is not moved
-/// and no list in it changes its length.
+/// Every parameter of the scene, in the order of the scene file. The pointers live as long as the scene is
+/// not moved and no list in it changes its length.
 std::vector<ParameterEntry> parameter_table(Scene& scene);
 
 }  // namespace strutt

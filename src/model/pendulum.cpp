@@ -38,7 +38,8 @@ Eigen::Vector2d PhysicalPendulum::centroid_position(double angle, double support
   return {centroid * std::sin(angle), support - centroid * std::cos(angle)};
 }
 
-Eigen::Vector2d PhysicalPendulum::centroid_velocity(double angle, double rate, double support_velocity) const {
+Eigen::Vector2d PhysicalPendulum::centroid_velocity(double angle, double rate,
+                                                    double support_velocity) const {
   return {centroid * rate * std::cos(angle), support_velocity + centroid * rate * std::sin(angle)};
 }
 
@@ -61,7 +62,8 @@ double PhysicalPendulum::angular_acceleration(double angle, double rate, double 
 double PhysicalPendulum::support_force(double angle, double rate, double angular_acceleration,
                                        double support_acceleration) const {
   const double centroid_acceleration =
-      support_acceleration + centroid * (angular_acceleration * std::sin(angle) + rate * rate * std::cos(angle));
+      support_acceleration +
+      centroid * (angular_acceleration * std::sin(angle) + rate * rate * std::cos(angle));
   return mass * (centroid_acceleration + gravity);
 }
 
@@ -73,10 +75,12 @@ std::array<std::complex<double>, 2> PhysicalPendulum::characteristic_roots(Equil
     const double damped = std::sqrt(frequency - half) * std::sqrt(frequency + half);
     return {std::complex{-half, damped}, std::complex{-half, -damped}};
   }
-  const double root = hanging ? std::sqrt(half - frequency) * std::sqrt(half + frequency) : std::hypot(half, frequency);
+  const double root =
+      hanging ? std::sqrt(half - frequency) * std::sqrt(half + frequency) : std::hypot(half, frequency);
   const double large = -(half + root);  // no cancellation: both terms have one sign
   const double stiffness = hanging ? alpha_squared() : -alpha_squared();
-  return {std::complex{stiffness / large, 0.0}, std::complex{large, 0.0}};  // product of the roots = stiffness
+  return {std::complex{stiffness / large, 0.0},
+          std::complex{large, 0.0}};  // product of the roots = stiffness
 }
 
 }  // namespace strutt

@@ -35,7 +35,8 @@ PeriodicFunction PeriodicFunction::constant(double mean) { return fourier(mean, 
 PeriodicFunction PeriodicFunction::fourier(double mean, std::vector<Harmonic> harmonics) {
   require_orders("order", harmonics);
   std::erase_if(harmonics, [](const Harmonic& h) { return h.cosine == 0.0 && h.sine == 0.0; });
-  std::sort(harmonics.begin(), harmonics.end(), [](const auto& a, const auto& b) { return a.order < b.order; });
+  std::sort(harmonics.begin(), harmonics.end(),
+            [](const auto& a, const auto& b) { return a.order < b.order; });
   PeriodicFunction result;
   result.mean_ = mean;
   result.harmonics_ = std::move(harmonics);
@@ -72,13 +73,15 @@ PeriodicFunction PeriodicFunction::samples(std::span<const double> values) {
   std::vector<Harmonic> harmonics;
   for (int k = 1; 2 * k <= count; ++k) {
     const bool highest = 2 * k == count;
-    harmonics.push_back({k, (highest ? 1.0 : 2.0) * coefficient(k, cosine), highest ? 0.0 : 2.0 * coefficient(k, sine)});
+    harmonics.push_back(
+        {k, (highest ? 1.0 : 2.0) * coefficient(k, cosine), highest ? 0.0 : 2.0 * coefficient(k, sine)});
   }
   return fourier(coefficient(0, cosine), std::move(harmonics));
 }
 
 double PeriodicFunction::operator()(double theta) const {
-  if (form_ == Form::square) return mean_ + amplitude_ * square_antiderivative(antiderivative_, theta - shift_);
+  if (form_ == Form::square)
+    return mean_ + amplitude_ * square_antiderivative(antiderivative_, theta - shift_);
   double sum = mean_;
   for (const auto& h : harmonics_) {
     const double angle = h.order * theta;
@@ -109,7 +112,8 @@ double amplitude_sum(std::span<const Harmonic> harmonics) {
 }  // namespace
 
 double PeriodicFunction::deviation() const {
-  return form_ == Form::square ? std::abs(amplitude_) * square_bound(antiderivative_) : amplitude_sum(harmonics_);
+  return form_ == Form::square ? std::abs(amplitude_) * square_bound(antiderivative_)
+                               : amplitude_sum(harmonics_);
 }
 
 double PeriodicFunction::bound() const { return std::abs(mean_) + deviation(); }
@@ -148,8 +152,10 @@ std::optional<double> PeriodicFunction::even_centre() const {
     // s_1 is odd about the centre of the square wave and even a quarter period later
     return folded(antiderivative_ == 1 ? shift_ + pi / 2.0 : shift_);
   }
-  if (std::all_of(harmonics_.begin(), harmonics_.end(), [](const Harmonic& h) { return h.sine == 0.0; })) return 0.0;
-  // A centre makes every term a pure cosine, so it is among the 2k extrema of the lowest harmonic, of order k.
+  if (std::all_of(harmonics_.begin(), harmonics_.end(), [](const Harmonic& h) { return h.sine == 0.0; }))
+    return 0.0;
+  // A centre makes every term a pure cosine, so it is among the 2k extrema of the lowest harmonic, of order
+  // k.
   const auto& lowest = harmonics_.front();
   const double first = std::atan2(lowest.sine, lowest.cosine) / lowest.order;
   for (int j = 0; j < 2 * lowest.order; ++j) {

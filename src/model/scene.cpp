@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "strutt/base/error.hpp"
-#include "strutt/base/floating_point.hpp"
 #include "model/harmonic_orders.hpp"
 #include "model/parameter_table.hpp"
+#include "strutt/base/error.hpp"
+#include "strutt/base/floating_point.hpp"
 
 namespace strutt {
 namespace {
@@ -16,7 +16,8 @@ const ParameterEntry& find(const std::vector<ParameterEntry>& table, std::string
     if (entry.info.path == path) return entry;
     known.push_back(entry.info.path);
   }
-  throw InvalidInput("unknown parameter '" + std::string(path) + "' for this scene" + suggestion(path, known));
+  throw InvalidInput("unknown parameter '" + std::string(path) + "' for this scene" +
+                     suggestion(path, known));
 }
 
 void positive(std::string_view path, double value) {
@@ -55,7 +56,8 @@ void validate_moment(const MomentTable& m, const std::optional<SupportTable>& su
   require_orders("order in moment.harmonics", m.harmonics);
   if (m.frequency) {
     positive("moment.frequency", *m.frequency);
-    require(!support || support->frequency == *m.frequency, "moment.frequency", *m.frequency, "that of the support");
+    require(!support || support->frequency == *m.frequency, "moment.frequency", *m.frequency,
+            "that of the support");
   } else if (!support && !m.harmonics.empty()) {
     throw InvalidInput("moment.frequency is required: there are harmonics and no [support]");
   }
@@ -115,10 +117,12 @@ PhysicalPendulum pendulum(const Scene& scene) {
   if (!scene.pendulum) throw InvalidInput("the scene has no [pendulum]");
   const auto& p = *scene.pendulum;
   switch (p.shape) {
-    case PendulumTable::Shape::rod: return PhysicalPendulum::uniform_rod(p.mass, p.length, p.gravity, p.damping);
+    case PendulumTable::Shape::rod:
+      return PhysicalPendulum::uniform_rod(p.mass, p.length, p.gravity, p.damping);
     case PendulumTable::Shape::point_mass:
       return PhysicalPendulum::point_mass(p.mass, p.length, p.gravity, p.damping);
-    case PendulumTable::Shape::body: break;
+    case PendulumTable::Shape::body:
+      break;
   }
   return {p.mass, p.inertia, p.centroid, p.gravity, p.damping};
 }
@@ -127,10 +131,14 @@ std::optional<Excitation> support(const Scene& scene) {
   if (!scene.support) return std::nullopt;
   const auto& s = *scene.support;
   switch (s.waveform) {
-    case Waveform::sine: return sinusoidal_support(s.amplitude, s.frequency, s.phase);
-    case Waveform::square: return square_acceleration_support(s.amplitude, s.frequency, s.phase);
-    case Waveform::samples: return Excitation{s.frequency, PeriodicFunction::samples(s.samples)};
-    case Waveform::harmonics: break;
+    case Waveform::sine:
+      return sinusoidal_support(s.amplitude, s.frequency, s.phase);
+    case Waveform::square:
+      return square_acceleration_support(s.amplitude, s.frequency, s.phase);
+    case Waveform::samples:
+      return Excitation{s.frequency, PeriodicFunction::samples(s.samples)};
+    case Waveform::harmonics:
+      break;
   }
   return Excitation{s.frequency, PeriodicFunction::fourier(0.0, s.harmonics)};
 }
@@ -163,18 +171,24 @@ LinearModel linear_model(const Scene& scene) {
 }
 
 std::string describe(const Scene& scene) {
-  if (scene.mathieu) return scene.mathieu->mathieu_form ? "Mathieu's equation (a, q)" : "Mathieu's equation (delta, epsilon)";
+  if (scene.mathieu)
+    return scene.mathieu->mathieu_form ? "Mathieu's equation (a, q)" : "Mathieu's equation (delta, epsilon)";
   if (scene.hill) return scene.hill->waveform == Waveform::square ? "Meissner's equation" : "Hill's equation";
   if (scene.linear) {
     return "linear periodic system, " + std::to_string(scene.linear->states()) + " states";
   }
-  std::string text = scene.pendulum->about == Equilibrium::hanging ? "pendulum, hanging" : "pendulum, inverted";
+  std::string text =
+      scene.pendulum->about == Equilibrium::hanging ? "pendulum, hanging" : "pendulum, inverted";
   if (!scene.support) return text + ", fixed support";
   switch (scene.support->waveform) {
-    case Waveform::sine: return text + ", sinusoidal support";
-    case Waveform::square: return text + ", support with square acceleration";
-    case Waveform::samples: return text + ", sampled support";
-    case Waveform::harmonics: break;
+    case Waveform::sine:
+      return text + ", sinusoidal support";
+    case Waveform::square:
+      return text + ", support with square acceleration";
+    case Waveform::samples:
+      return text + ", sampled support";
+    case Waveform::harmonics:
+      break;
   }
   return text + ", support with harmonics";
 }

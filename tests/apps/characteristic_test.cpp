@@ -59,7 +59,8 @@ TEST_CASE("characteristic writes JSON, with null for b_0, and files", "[apps][ch
   CHECK(json["rows"][1]["order"] == 1);
 }
 
-TEST_CASE("characteristic has the same rows with any number of threads", "[apps][characteristic][extreme][N48]") {
+TEST_CASE("characteristic has the same rows with any number of threads",
+          "[apps][characteristic][extreme][N48]") {
   const auto one = characteristic("0:300", "7,1e6", {"--threads", "1"});
   CHECK(csv_rows(one.out).size() == 603);
   CHECK(csv_rows(one.out) == csv_rows(characteristic("0:300", "7,1e6", {"--threads", "2"}).out));

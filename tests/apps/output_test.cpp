@@ -19,8 +19,10 @@ using Clock = std::chrono::steady_clock;
 const std::string kOld = "an old result\n";
 
 /// A chart of about an hour.
-const Words kLongAxes{"--x",  "mathieu.delta=-1:5:2000", "--y", "mathieu.epsilon=0:6:2000", "--tolerance",
-                      "1e-12", "--method", "propagator"};
+const Words kLongAxes{"--x",         "mathieu.delta=-1:5:2000",
+                      "--y",         "mathieu.epsilon=0:6:2000",
+                      "--tolerance", "1e-12",
+                      "--method",    "propagator"};
 
 /// A directory with a scene, tables and old results.
 struct Room {

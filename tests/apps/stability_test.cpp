@@ -195,9 +195,9 @@ TEST_CASE("the plan of a table tells its size and its cost", "[apps][stability]"
   const ScratchDirectory directory;
   directory.with("points.csv", table);
   const auto plan = [&](const std::string& method) {
-    const Result result = strutt({"stability", "-", "--points", "points.csv", "--threads", "1", "--method", method,
-                                  "--dry-run"},
-                                 {.input = "[mathieu]\n", .directory = directory.path()});
+    const Result result = strutt(
+        {"stability", "-", "--points", "points.csv", "--threads", "1", "--method", method, "--dry-run"},
+        {.input = "[mathieu]\n", .directory = directory.path()});
     CHECK(result.code == 0);
     CHECK_THAT(result.out, Catch::Matchers::Contains("# points: 2000\n"));
     const auto begin = result.out.find("# expected time: ");

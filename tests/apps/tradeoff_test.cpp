@@ -92,7 +92,8 @@ TEST_CASE("tradeoff writes JSON and a figure", "[apps][tradeoff]") {
 TEST_CASE("tradeoff says what it would do", "[apps][tradeoff]") {
   const auto done = tradeoff(kChart, {"--dry-run"});
   CHECK(done.code == 0);
-  CHECK(done.out.find("# points: 64\n# methods: auto surrogate propagator arkode cvode\n# tolerances: 0.01 0.001") !=
+  CHECK(done.out.find(
+            "# points: 64\n# methods: auto surrogate propagator arkode cvode\n# tolerances: 0.01 0.001") !=
         std::string::npos);
   CHECK(done.out.find("[mathieu]") != std::string::npos);
 }
@@ -109,7 +110,8 @@ TEST_CASE("tradeoff refuses what it cannot measure", "[apps][tradeoff][misuse]")
   refused(kMathieu, {"--samples", "5"}, "[chart]");
   refused(kChart, {"--samples", "-1"}, "--samples");
   refused(kMathieu, {"--method", "exact"}, "--method exact");
-  refused(kMathieu, {"--method", "fourier"}, "available are auto, surrogate, propagator, cvode, arkode, exact");
+  refused(kMathieu, {"--method", "fourier"},
+          "available are auto, surrogate, propagator, cvode, arkode, exact");
   refused(kMathieu, {"--tolerance", "1e-14"}, "--tolerance");
   refused(kMathieu, {"-o", "a.csv", "--figure", "a.csv"}, "the same file");
   refused(kMathieu, {"-o", "a.npy"}, "CSV");

@@ -33,7 +33,8 @@ long double excess(const BoundedMatrix& m, const MatrixXl& truth) {
 }  // namespace
 
 TEST_CASE("identity and the empty product", "[base][bounded]") {
-  for (const BoundedMatrix& one : {BoundedMatrix::identity(3), ordered_product(std::vector<BoundedMatrix>{}, 3)}) {
+  for (const BoundedMatrix& one :
+       {BoundedMatrix::identity(3), ordered_product(std::vector<BoundedMatrix>{}, 3)}) {
     for (int i = 0; i < 9; ++i) CHECK(one.value.entry(i / 3, i % 3) == (i % 4 == 0 ? 1.0 : 0.0));
     CHECK(one.error.isZero(0.0));
   }
@@ -62,7 +63,9 @@ TEST_CASE("the product of any matrices within the bounds lies within the bound",
   std::mt19937 random(4);
   for (int run = 0; run < 300; ++run) {
     const int n = 1 + run % 4, count = 1 + run % 12;
-    const double size = run % 3 == 0 ? 0.0 : run % 3 == 1 ? 1e-12 : 1e-5;  // 0: the rounding of the products alone
+    const double size = run % 3 == 0   ? 0.0
+                        : run % 3 == 1 ? 1e-12
+                                       : 1e-5;  // 0: the rounding of the products alone
     std::vector<BoundedMatrix> factors;
     MatrixXl truth = MatrixXl::Identity(n, n);
     for (int j = 0; j < count; ++j) {

@@ -7,8 +7,8 @@ namespace strutt::test::minimum_test {
 
 TEST_CASE("a minimum is found wherever it lies between its ends", "[base]") {
   for (const double place : {1e-9, 0.3, 1e6 + 0.3}) {
-    const auto [found, value] = least_between(
-        [&](double x) { return 2.0 + (x - place) * (x - place); }, place - 0.1, place + 0.4);
+    const auto [found, value] =
+        least_between([&](double x) { return 2.0 + (x - place) * (x - place); }, place - 0.1, place + 0.4);
     CAPTURE(place);
     CHECK(std::abs(found - place) <= 2e-8);
     CHECK(value <= 2.0 + 0x1p-51);

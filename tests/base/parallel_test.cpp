@@ -48,8 +48,8 @@ TEST_CASE("parallel_for_ranges cuts the indices into ranges of the same length",
       CHECK(wrong == 0);
     }
   }
-  CHECK(parallel_for_ranges(0, 3, {.threads = kThreads},
-                            [](std::size_t, std::size_t, int) { throw Stop{}; }));
+  CHECK(
+      parallel_for_ranges(0, 3, {.threads = kThreads}, [](std::size_t, std::size_t, int) { throw Stop{}; }));
 }
 
 TEST_CASE("a slot is never shared at the same time", "[base][threads]") {

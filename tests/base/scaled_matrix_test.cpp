@@ -73,7 +73,8 @@ TEST_CASE("zero and non-finite matrices keep what they are", "[base][scaled]") {
   CHECK(zero.mantissa.isZero(0.0));
   CHECK(zero.log_max_abs() == -std::numeric_limits<double>::infinity());
   CHECK((zero * ScaledMatrix::identity(2)).mantissa.isZero(0.0));
-  for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     ScaledMatrix m{MatrixXd::Ones(2, 2), 0};
     m.mantissa(1, 0) = bad;
     m.normalise();

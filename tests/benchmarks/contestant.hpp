@@ -52,8 +52,8 @@ Contestant contestant(std::string name, const std::vector<Point>& points, Argume
 using LargestError = double (*)(const Answers&, const std::vector<Point>&);
 
 /// The tolerance that reaches the target with the fewest right-hand sides; empty: none does.
-inline std::optional<double> tuned_tolerance(const Contestant& c, const std::vector<Point>& points, double target,
-                                             LargestError error_of = largest_error) {
+inline std::optional<double> tuned_tolerance(const Contestant& c, const std::vector<Point>& points,
+                                             double target, LargestError error_of = largest_error) {
   constexpr int kPerDecade = 8;
   std::optional<double> best;
   long fewest = std::numeric_limits<long>::max();

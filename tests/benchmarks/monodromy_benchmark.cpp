@@ -77,7 +77,8 @@ const std::vector<Contestant>& others() {
       contestant<ArkodeLoop>("order_8_tuned_own_sums", points(), Span::half_period,
                              strutt::detail::butcher_table(8),
                              StepControl{.first_step_radians = 5.0, .grow_at_once = true, .own_sums = true}),
-      contestant<OdeintLoop<boost::numeric::odeint::runge_kutta_fehlberg78>>("odeint_fehlberg_7_8", points(), Span::half_period)};
+      contestant<OdeintLoop<boost::numeric::odeint::runge_kutta_fehlberg78>>("odeint_fehlberg_7_8", points(),
+                                                                             Span::half_period)};
   return all;
 }
 

@@ -70,7 +70,8 @@ TEST_CASE("an axis of one point", "[chart][axis][extreme][N39]") {
   CHECK(refusal(axis(0.3, 0.4, 1)).find("equal to from (0.3)") != std::string::npos);
 }
 
-TEST_CASE("axes that make no sense are refused, with the field and the range", "[chart][axis][extreme][N36][N39][N40]") {
+TEST_CASE("axes that make no sense are refused, with the field and the range",
+          "[chart][axis][extreme][N36][N39][N40]") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    inf = std::numeric_limits<double>::infinity();
   CHECK(refusal(axis(nan, 1.0, 3)) == "x axis: from = nan is not allowed: it must be finite");

@@ -93,7 +93,8 @@ void check_box(const Scene& scene, const Axis& x, const Axis& y, const std::stri
 
 }  // namespace
 
-TEST_CASE("a wide chart of Mathieu's equation keeps its bounds at 2000 random cells", "[chart][reference][slow]") {
+TEST_CASE("a wide chart of Mathieu's equation keeps its bounds at 2000 random cells",
+          "[chart][reference][slow]") {
   check_box(parse_scene("[mathieu]\n", "scene").scene, {"mathieu.delta", -50.0, 200.0, 2048},
             {"mathieu.epsilon", 0.0, 200.0, 2048}, "mathieu_box");
 }

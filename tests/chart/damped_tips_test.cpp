@@ -41,7 +41,8 @@ TEST_CASE("narrow damped tongues across which damping and growth change", "[char
   }
 }
 
-TEST_CASE("what is left just below closing is found wherever on the line its tip lies", "[chart][tongues][slow]") {
+TEST_CASE("what is left just below closing is found wherever on the line its tip lies",
+          "[chart][tongues][slow]") {
   struct Case {
     Scene scene;
     TongueLine whole;  // on which the tip is looked for

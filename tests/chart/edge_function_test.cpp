@@ -31,7 +31,8 @@ TEST_CASE("between two places an edge of Mathieu's equation bends less than its 
   }
 }
 
-TEST_CASE("nothing is said of the bend where the mean changes or epsilon changes its sign", "[chart][tongues]") {
+TEST_CASE("nothing is said of the bend where the mean changes or epsilon changes its sign",
+          "[chart][tongues]") {
   LineEquation equation(mathieu_scene(1.0, 0.5), {"mathieu.epsilon", -1.0, 1.0});
   EdgeFunction function(equation, 2);
   CHECK_FALSE(function.bend(function.at(-0.1), function.at(0.1), true));

@@ -29,8 +29,7 @@ Numbers of_points() {
   add(numbers, analyse(engine, hill_equation(1e-10, PeriodicFunction::constant(1e-310))));
   add(numbers, analyse(engine, mathieu_delta_epsilon(-2e5, 1e-310)));
   static const auto models = every_model();  // made before anything is changed
-  for (const auto& entry : models)
-    add(numbers, analyse(engine, entry.model, {.method = Method::propagator}));
+  for (const auto& entry : models) add(numbers, analyse(engine, entry.model, {.method = Method::propagator}));
   return numbers;
 }
 

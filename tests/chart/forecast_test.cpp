@@ -80,7 +80,7 @@ TEST_CASE("evaluations of ARKODE are forecast within a factor of two, of CVODE o
   }
 }
 
-TEST_CASE("boxes, degrees and nodes of a surrogate are as forecast", "[chart][plan][surrogate]") {
+TEST_CASE("boxes, degrees and nodes of a surrogate are as forecast", "[chart][plan][surrogate][slow]") {
   const auto compare = [](const std::string& text, const ChartRequest& request) {
     const Scene scene = scene_of(text);
     ChartRequest asked = request;

@@ -138,7 +138,8 @@ TEST_CASE("all layers of a cell come from one integration", "[chart][stability_c
   CHECK(bytes(kAll) - bytes({Layer::verdict}) == 8.0 * 5 * 1500);
 }
 
-TEST_CASE("a chart has the same bits for any number of threads", "[chart][stability_chart][threads][extreme][N48]") {
+TEST_CASE("a chart has the same bits for any number of threads",
+          "[chart][stability_chart][threads][extreme][N48]") {
   ChartRequest request = request_of(17, 6);
   request.threads = 1;
   const Chart one = compute(mathieu(), request);
@@ -237,7 +238,8 @@ TEST_CASE("the plan counts before anything is computed", "[chart][stability_char
   CHECK(plan.expected_seconds > 0.0);
 }
 
-TEST_CASE("working memory does not grow with the number of rows", "[chart][stability_chart][plan][extreme][N42]") {
+TEST_CASE("working memory does not grow with the number of rows",
+          "[chart][stability_chart][plan][extreme][N42]") {
   const auto working = [](std::size_t rows) {
     return plan_chart(mathieu(), request_of(1000, rows)).working_bytes;
   };
@@ -255,7 +257,8 @@ TEST_CASE("working memory does not grow with the number of rows", "[chart][stabi
   CHECK(rows == std::vector<std::size_t>{2, 2, 1});
 }
 
-TEST_CASE("a chart over the memory budget is refused unless forced", "[chart][stability_chart][plan][extreme][N41][N42]") {
+TEST_CASE("a chart over the memory budget is refused unless forced",
+          "[chart][stability_chart][plan][extreme][N41][N42]") {
   ChartRequest request = request_of(1'000'000, 1'000'000);
   const std::string message = test::message_of<MemoryBudgetExceeded>([&] { plan_chart(mathieu(), request); });
   CHECK(message.find("1000000 x 1000000") != std::string::npos);

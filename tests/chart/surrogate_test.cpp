@@ -154,7 +154,7 @@ TEST_CASE("a coefficient that is even about no phase is interpolated over the wh
   build_and_check(turning, x, axis("hill.harmonics.1.sin", 0.0, 1.0), 1e-8, 100);
 }
 
-TEST_CASE("a box in which small values drown in large ones is split", "[chart][surrogate][ratchet]") {
+TEST_CASE("a box in which small values drown in large ones is split", "[chart][surrogate][slow][ratchet]") {
   const Axis x = axis("mathieu.delta", -50.0, 200.0, 4096), y = axis("mathieu.epsilon", 0.0, 200.0, 4096);
   const Surrogate surrogate(mathieu(), x, y, {.tolerance = 1e-9, .threads = 2});
   CHECK(surrogate.report().boxes >= 8);

@@ -175,7 +175,8 @@ TEST_CASE("a line may pass the tip of a tongue", "[chart][tongues]") {
   const auto beside = of_order(4, 4.0, {"mathieu.epsilon", -5.0, 5.0});  // outside on both sides
   REQUIRE(beside.size() == 2);
   for (const TongueEdge& edge : beside) CHECK((edge.position == 0.0 && edge.width == 0.0));
-  for (const TongueEdge& edge : of_order(4, 4.0, {"mathieu.epsilon", -3.0, 0.5}))  // no midpoint is at the tip
+  for (const TongueEdge& edge :
+       of_order(4, 4.0, {"mathieu.epsilon", -3.0, 0.5}))  // no midpoint is at the tip
     CHECK(std::abs(edge.position) <= edge.error);
 }
 

@@ -84,7 +84,7 @@ double largest_disagreement(int count, double from, double to, int last, unsigne
 }  // namespace
 
 TEST_CASE("both routes agree within their bounds: half-period factors of the propagator vanish at the values",
-          "[floquet][characteristic][law][ratchet]") {
+          "[floquet][characteristic][law][slow][ratchet]") {
   const double largest = largest_disagreement(600, -3.0, 3.0, 300, 1);
   check_within("both routes to an edge: distance over the sum of the bounds", largest, 2.0);
 }

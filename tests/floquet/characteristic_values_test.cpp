@@ -138,14 +138,16 @@ TEST_CASE("Followed through q, every order stays on its curve", "[floquet][chara
   }
 }
 
-TEST_CASE("SciPy #4479: nine orders at q = 21 are nine values", "[floquet][characteristic][extreme][defect]") {
+TEST_CASE("SciPy #4479: nine orders at q = 21 are nine values",
+          "[floquet][characteristic][extreme][defect]") {
   const auto values = characteristic_values(0, 8, 21.0);
   const auto is_14_988 = [](const auto& pair) { return std::abs(pair.a.value - 14.988) < 1e-3; };
   CHECK(std::count_if(values.begin(), values.end(), is_14_988) == 1);
   CHECK(is_14_988(values[3]));
 }
 
-TEST_CASE("SciPy #14526: a_4 has no jump from q = 600 to 1500", "[floquet][characteristic][extreme][defect]") {
+TEST_CASE("SciPy #14526: a_4 has no jump from q = 600 to 1500",
+          "[floquet][characteristic][extreme][defect]") {
   double previous = at(4, 600.0).a.value;
   for (double q = 601.0; q <= 1500.0; q += 1.0) {
     const double value = at(4, q).a.value;
@@ -185,7 +187,8 @@ TEST_CASE("The log-q rule for the length of the matrix fails from q = 1e5 on: th
   }
 }
 
-TEST_CASE("GSL, Savannah #50343: b_70 - a_69 is positive at q = 2000", "[floquet][characteristic][extreme][defect]") {
+TEST_CASE("GSL, Savannah #50343: b_70 - a_69 is positive at q = 2000",
+          "[floquet][characteristic][extreme][defect]") {
   for (double q = 1000.0; q <= 2400.0; q += 100.0) {
     const auto pairs = characteristic_values(69, 70, q);
     CHECK(pairs[1].b->value - pairs[0].a.value > 70.0);

@@ -47,7 +47,8 @@ TEST_CASE("Closed-form propagators are within their entrywise bounds", "[floquet
 
 TEST_CASE("Zeros of cos and sin keep their relative accuracy", "[floquet][extreme][N04]") {
   for (const double n : {0.5, 1.0, 1.5, 2.0, 7.0, 100.0, 12345.5}) {
-    for (const double offset : {0x1p-52, -0x1p-51, 0x1p-30}) CHECK(excess(n * n * (1.0 + offset), 1.0, n) <= 0.0);
+    for (const double offset : {0x1p-52, -0x1p-51, 0x1p-30})
+      CHECK(excess(n * n * (1.0 + offset), 1.0, n) <= 0.0);
     // exactly at n: sin (whole n) or cos (half n) is a proved zero
     const auto p = constant_propagator(n * n, 1.0, n);
     const bool whole = n == std::floor(n);

@@ -42,10 +42,11 @@ Points scattered(std::size_t count, double low, double high, double largest_epsi
 
 /// |value - D|/max(1, largest |entry|) against long double.
 double true_error(const Points& p, std::size_t l, int order) {
-  const auto m = reference::hill_matrix(PeriodicFunction::fourier(p.delta[l], {{order, p.epsilon[l], 0.0}}), 512);
+  const auto m =
+      reference::hill_matrix(PeriodicFunction::fourier(p.delta[l], {{order, p.epsilon[l], 0.0}}), 512);
   const long double kappa = std::max(1.0, std::sqrt(std::abs(p.delta[l])));
-  const long double size =
-      std::max({1.0L, std::abs(m[0][0]), std::abs(kappa * m[0][1]), std::abs(m[1][0] / kappa), std::abs(m[1][1])});
+  const long double size = std::max(
+      {1.0L, std::abs(m[0][0]), std::abs(kappa * m[0][1]), std::abs(m[1][0] / kappa), std::abs(m[1][1])});
   return static_cast<double>(std::abs(p.value[l] - (m[0][0] + m[1][1])) / size);
 }
 
@@ -58,7 +59,8 @@ struct Box {
 
 TEST_CASE("the error of a discriminant is below its bound and the tolerance",
           "[floquet][discriminants][simd][ratchet]") {
-  const auto box = GENERATE(values<Box>({{-1, 5, 6, 1}, {-50, 200, 200, 1}, {0, 5, 5, 7}, {-1e-3, 1e-3, 1e-3, 1}}));
+  const auto box =
+      GENERATE(values<Box>({{-1, 5, 6, 1}, {-50, 200, 200, 1}, {0, 5, 5, 7}, {-1e-3, 1e-3, 1e-3, 1}}));
   const double tolerance = GENERATE(1e-3, 1e-7, 1e-9, 1e-12);
   CAPTURE(box.high, box.order, tolerance);
   Points points = scattered(60, box.low, box.high, box.epsilon, 11);
@@ -111,7 +113,8 @@ TEST_CASE("more harmonics than there are columns of classes", "[floquet][discrim
   }
 }
 
-TEST_CASE("a point has the same bits whatever stands beside it", "[floquet][discriminants][simd][N46][extreme]") {
+TEST_CASE("a point has the same bits whatever stands beside it",
+          "[floquet][discriminants][simd][N46][extreme]") {
   Points all = scattered(5000, -5.0, 50.0, 40.0, 3);
   all.compute(1e-9);
   for (std::size_t l = 0; l < all.size(); l += 97) {

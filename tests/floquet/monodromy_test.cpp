@@ -39,7 +39,9 @@ Eigen::Matrix2d plain(const BasicMonodromy<Matrix>& m) {
 
 /// Tolerance of a comparison: the bounds of both sides, in absolute terms.
 template <typename Matrix>
-double allowance(const BasicMonodromy<Matrix>& m) { return m.error * std::max(1.0, plain(m).cwiseAbs().maxCoeff()); }
+double allowance(const BasicMonodromy<Matrix>& m) {
+  return m.error * std::max(1.0, plain(m).cwiseAbs().maxCoeff());
+}
 
 HillEquation shifted(HillEquation equation, double phase) {
   equation.coefficient = equation.coefficient.shifted(phase);
@@ -211,7 +213,8 @@ TEST_CASE("Where solutions grow det M says nothing and the determinants of the p
     CAPTURE(delta, epsilon);
     CHECK(std::abs(plain(m).determinant() - 1.0) > 0.1);
     defect = std::max(defect, m.determinant_defect);
-    largest = std::max(largest, static_cast<double>(true_error(m, reference::hill_matrix(equation.coefficient))));
+    largest =
+        std::max(largest, static_cast<double>(true_error(m, reference::hill_matrix(equation.coefficient))));
   }
   check_within("N03 |det - 1| of the integrated pieces over their squared norm", defect, 4e-16);
   check_within("N03 error of M where |M| is up to 1e15 relative to |M|", largest, 1e-14);
@@ -226,7 +229,8 @@ TEST_CASE("A stiffness of 1e4 and more: both components of the state keep their 
     const auto m = engine.compute(equation, {.tolerance = 1e-11, .method = Method::propagator});
     CHECK(m.kappa == std::sqrt(delta));
     const auto steps = static_cast<int>(6.0 * std::sqrt(delta + epsilon));
-    const auto error = static_cast<double>(true_error(m, reference::hill_matrix(equation.coefficient, steps)));
+    const auto error =
+        static_cast<double>(true_error(m, reference::hill_matrix(equation.coefficient, steps)));
     CAPTURE(delta, epsilon, m.error);
     CHECK(error <= m.error);
     largest = std::max(largest, error);

@@ -66,7 +66,8 @@ TEST_CASE("Uncoupled oscillators have the multipliers of each", "[floquet][multi
   CHECK(result.verdict == Verdict::stable);
   CHECK(result.growth == 0.0);
   CHECK(std::isnan(result.winding));
-  const double expected = std::min(1.0 - std::abs(std::cos(kTwoPi * std::sqrt(1.3))), 1.0 - std::abs(std::cos(kTwoPi * std::sqrt(2.9))));
+  const double expected = std::min(1.0 - std::abs(std::cos(kTwoPi * std::sqrt(1.3))),
+                                   1.0 - std::abs(std::cos(kTwoPi * std::sqrt(2.9))));
   CHECK(std::abs(result.margin - expected) <= result.margin_error);
   check_within("bound of the margin of uncoupled oscillators", result.margin_error, 6e-13);
   for (const auto& multiplier : result.multipliers)
@@ -75,7 +76,8 @@ TEST_CASE("Uncoupled oscillators have the multipliers of each", "[floquet][multi
 
 TEST_CASE("Combination resonance: unstable at the sum of the frequencies only",
           "[floquet][multipliers][ratchet]") {
-  // off-diagonal excitation at frequency 1 = w1 + w2, first order growth epsilon/(4 sqrt(w1 w2)) * T... for w1 = 0.3, w2 = 0.7
+  // off-diagonal excitation at frequency 1 = w1 + w2, first order growth epsilon/(4 sqrt(w1 w2)) * T... for
+  // w1 = 0.3, w2 = 0.7
   const auto resonant = at(oscillators(0.09, 0.49, 0.0, 0.02));
   CHECK(resonant.verdict == Verdict::unstable);
   check_close("growth at a combination resonance against first order (relative)", resonant.growth,
@@ -116,7 +118,8 @@ TEST_CASE("A gyroscopic system with spectral radius 1 is unresolved", "[floquet]
   check_within("growth of a gyroscopic system with spectral radius 1", std::abs(result.growth), 4e-15);
 }
 
-TEST_CASE("Equal oscillators: colliding roots are unresolved unless another root decides", "[floquet][multipliers]") {
+TEST_CASE("Equal oscillators: colliding roots are unresolved unless another root decides",
+          "[floquet][multipliers]") {
   CHECK(at(oscillators(1.3, 1.3, 0.0, 0.0)).verdict == Verdict::unresolved);
   CHECK(at(oscillators(-1.3, -1.3, 0.0, 0.0)).verdict == Verdict::unstable);
 }
@@ -144,7 +147,8 @@ TEST_CASE("Three degrees of freedom: block diagonal equals its parts", "[floquet
   const auto result = at(system);
   double least = 1.0;
   for (int j = 0; j < 3; ++j) {
-    const auto part = at(mathieu_delta_epsilon(system.stiffness.mean(j, j), system.stiffness.harmonics[0].cosine(j, j)));
+    const auto part =
+        at(mathieu_delta_epsilon(system.stiffness.mean(j, j), system.stiffness.harmonics[0].cosine(j, j)));
     least = std::min(least, part.margin);
   }
   CHECK(std::abs(result.margin - least) <= result.margin_error + 1e-9);
@@ -163,7 +167,8 @@ TEST_CASE("Scale: SI and canonical systems give the same verdict and growth", "[
 
 TEST_CASE("Of a system the small multipliers come with the digits they have, mostly none",
           "[floquet][multipliers][extreme][N02][ratchet]") {
-  // two uncoupled ones, exp(+-2 pi 5) and exp(+-2 pi): the smallest is lost in rounding, and its error says so
+  // two uncoupled ones, exp(+-2 pi 5) and exp(+-2 pi): the smallest is lost in rounding, and its error says
+  // so
   LinearPeriodicSystem system;
   system.period = kTwoPi;
   system.mass = Eigen::MatrixXd::Identity(2, 2);

@@ -63,23 +63,25 @@ Tally check(const Case& c) {
 TEST_CASE("The error bound is above the true error and sharp on the reference tables",
           "[floquet][reference][ratchet]") {
   const auto c = GENERATE(values<Case>({
-      {"mathieu", Method::arkode, 1e-3}, {"mathieu", Method::arkode, 1e-6}, {"mathieu", Method::arkode, 1e-9},
-      {"mathieu", Method::arkode, 1e-12}, {"mathieu", Method::cvode, 1e-6},
-      {"mathieu", Method::propagator, 1e-2}, {"mathieu", Method::propagator, 1e-4},
-      {"mathieu", Method::propagator, 1e-7}, {"mathieu", Method::propagator, 1e-9},
-      {"mathieu", Method::automatic, 1e-12}, {"mathieu", Method::automatic, 1e-13},
-      {"hill", Method::arkode, 1e-2}, {"hill", Method::arkode, 1e-9}, {"hill", Method::arkode, 1e-12},
-      {"hill", Method::cvode, 1e-6}, {"hill", Method::propagator, 1e-3}, {"hill", Method::propagator, 1e-9},
-      {"hill", Method::automatic, 1e-12},
-      {"square", Method::automatic, 1e-13}, {"square", Method::arkode, 1e-9}, {"square", Method::propagator, 1e-9},
-      {"pendulum", Method::arkode, 1e-3}, {"pendulum", Method::arkode, 1e-9},
-      {"pendulum", Method::arkode, 1e-12}, {"pendulum", Method::cvode, 1e-6},
-      {"pendulum", Method::propagator, 1e-5}, {"pendulum", Method::propagator, 1e-9},
-      {"pendulum", Method::automatic, 1e-12},
-      {"linear4", Method::automatic, 1e-6}, {"linear4", Method::automatic, 1e-9}, {"linear4", Method::cvode, 1e-6},
-      {"linear4", Method::arkode, 1e-6}, {"linear4", Method::arkode, 1e-9},
-      {"linear4", Method::propagator, 1e-2}, {"linear4", Method::propagator, 1e-4},
-      {"linear4", Method::propagator, 1e-7}, {"linear4", Method::propagator, 1e-12},
+      {"mathieu", Method::arkode, 1e-3},      {"mathieu", Method::arkode, 1e-6},
+      {"mathieu", Method::arkode, 1e-9},      {"mathieu", Method::arkode, 1e-12},
+      {"mathieu", Method::cvode, 1e-6},       {"mathieu", Method::propagator, 1e-2},
+      {"mathieu", Method::propagator, 1e-4},  {"mathieu", Method::propagator, 1e-7},
+      {"mathieu", Method::propagator, 1e-9},  {"mathieu", Method::automatic, 1e-12},
+      {"mathieu", Method::automatic, 1e-13},  {"hill", Method::arkode, 1e-2},
+      {"hill", Method::arkode, 1e-9},         {"hill", Method::arkode, 1e-12},
+      {"hill", Method::cvode, 1e-6},          {"hill", Method::propagator, 1e-3},
+      {"hill", Method::propagator, 1e-9},     {"hill", Method::automatic, 1e-12},
+      {"square", Method::automatic, 1e-13},   {"square", Method::arkode, 1e-9},
+      {"square", Method::propagator, 1e-9},   {"pendulum", Method::arkode, 1e-3},
+      {"pendulum", Method::arkode, 1e-9},     {"pendulum", Method::arkode, 1e-12},
+      {"pendulum", Method::cvode, 1e-6},      {"pendulum", Method::propagator, 1e-5},
+      {"pendulum", Method::propagator, 1e-9}, {"pendulum", Method::automatic, 1e-12},
+      {"linear4", Method::automatic, 1e-6},   {"linear4", Method::automatic, 1e-9},
+      {"linear4", Method::cvode, 1e-6},       {"linear4", Method::arkode, 1e-6},
+      {"linear4", Method::arkode, 1e-9},      {"linear4", Method::propagator, 1e-2},
+      {"linear4", Method::propagator, 1e-4},  {"linear4", Method::propagator, 1e-7},
+      {"linear4", Method::propagator, 1e-12},
   }));
   const auto tally = check(c);
   CAPTURE(c.table, to_string(c.method), c.tolerance);
@@ -94,8 +96,10 @@ TEST_CASE("Trace of the Mathieu equation at (1, 0.5)", "[floquet][reference][rat
   MonodromyEngine engine;
   const double trace = 2.021314397416841636175261493894996;  // tests/reference/mathieu.csv, first row
   for (const Method method : {Method::arkode, Method::cvode, Method::propagator}) {
-    const auto result = analyse(engine, mathieu_delta_epsilon(1.0, 0.5), {.tolerance = 1e-12, .method = method});
-    CHECK(std::abs(result.discriminant - trace) <= result.error * std::max(1.0, result.matrix.cwiseAbs().maxCoeff()));
+    const auto result =
+        analyse(engine, mathieu_delta_epsilon(1.0, 0.5), {.tolerance = 1e-12, .method = method});
+    CHECK(std::abs(result.discriminant - trace) <=
+          result.error * std::max(1.0, result.matrix.cwiseAbs().maxCoeff()));
     if (method != Method::cvode) {
       CHECK(result.outcome == Outcome::converged);
       check_within("D of Mathieu's equation at (1 0.5) by ARKODE and Taylor series at tolerance 1e-12",

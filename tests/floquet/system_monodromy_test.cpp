@@ -67,7 +67,7 @@ TEST_CASE("The bound of systems is above the true error, and within the toleranc
   CHECK(converged >= 98 * count / 100);
 }
 
-TEST_CASE("The bound holds for a mass matrix that is hard to invert", "[floquet][extreme]") {
+TEST_CASE("The bound holds for a mass matrix that is hard to invert", "[floquet][extreme][slow]") {
   MonodromyEngine engine;
   for (const double nearness : {1e-3, 1e-6, 1e-8}) {
     auto system = pendulums();

@@ -56,7 +56,8 @@ TEST_CASE("Equality is called boundary only where it is proved", "[floquet][verd
   MonodromyEngine engine;
   const auto rod = PhysicalPendulum::uniform_rod(1.0, 0.7);
   const auto support = sinusoidal_support(0.0, 2.0 * rod.alpha());
-  CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, &support).equation).verdict == Verdict::unresolved);
+  CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, &support).equation).verdict ==
+        Verdict::unresolved);
   const auto fast = sinusoidal_support(0.0, 1e300);
   CHECK(analyse(engine, linearise(rod, Equilibrium::hanging, &fast).equation).verdict == Verdict::unresolved);
   // without a support the period is the free one, exactly
@@ -125,7 +126,8 @@ TEST_CASE("Growth has the sign of -margin and the closed form of constant coeffi
   for (const double delta : {1e-3, 1e-9, -1e-9, -1e-3}) {
     const auto result = at(delta, 0.0, 0.7);
     CHECK(result.growth * result.margin < 0.0);
-    const double exponent = delta > 0.0 ? -delta / (0.35 + std::sqrt(0.1225 - delta)) : -0.35 + std::sqrt(0.1225 - delta);
+    const double exponent =
+        delta > 0.0 ? -delta / (0.35 + std::sqrt(0.1225 - delta)) : -0.35 + std::sqrt(0.1225 - delta);
     check_close("growth next to a damped edge (relative)", result.growth, 2.0 * std::numbers::pi * exponent,
                 6e-8);
   }
@@ -165,8 +167,8 @@ TEST_CASE("around the sixth to the eighth tongue every decided point is right, w
 
 TEST_CASE("Far above its frequency an inverted pendulum has the margin of its mean equation",
           "[floquet][verdict][extreme][N12][ratchet]") {
-  // delta = -(alpha/omega)^2 and epsilon = s sqrt(2) alpha/omega: winding^2 = delta + epsilon^2/2 + O(epsilon^4), so
-  // that margin = 1 - cos(2 pi winding) = 2 pi^2 (s^2 - 1) (alpha/omega)^2, down to 1e-16
+  // delta = -(alpha/omega)^2 and epsilon = s sqrt(2) alpha/omega: winding^2 = delta + epsilon^2/2 +
+  // O(epsilon^4), so that margin = 1 - cos(2 pi winding) = 2 pi^2 (s^2 - 1) (alpha/omega)^2, down to 1e-16
   MonodromyEngine engine;
   const auto rod = PhysicalPendulum::uniform_rod(1.0, 0.7);
   double largest = 0.0;
@@ -177,7 +179,8 @@ TEST_CASE("Far above its frequency an inverted pendulum has the margin of its me
       const auto result =
           analyse(engine, linearise(rod, Equilibrium::inverted, &support).equation, {.tolerance = 1e-13});
       const double term = 2.0 * std::numbers::pi * std::numbers::pi / (ratio * ratio);
-      const double expected = (s * s - 1.0) * term, next = 10.0 * (1.0 + std::pow(s, 4)) * term / (ratio * ratio);
+      const double expected = (s * s - 1.0) * term,
+                   next = 10.0 * (1.0 + std::pow(s, 4)) * term / (ratio * ratio);
       CAPTURE(s, ratio, expected, result.margin, result.margin_error);
       if (result.verdict != Verdict::unresolved)
         CHECK(result.verdict == (s > 1.0 ? Verdict::stable : Verdict::unstable));

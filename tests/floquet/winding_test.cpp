@@ -40,7 +40,8 @@ TEST_CASE("The winding number grows with delta and rests at n/2 inside tongue n"
       if (result.verdict == Verdict::unstable) CHECK(halves == std::round(halves));
       if (result.verdict == Verdict::stable) CHECK(halves != std::round(halves));
       // its parity is the sign of the discriminant
-      if (result.verdict == Verdict::unstable) CHECK((std::fmod(halves, 2.0) == 0.0) == (result.discriminant > 0.0));
+      if (result.verdict == Verdict::unstable)
+        CHECK((std::fmod(halves, 2.0) == 0.0) == (result.discriminant > 0.0));
     }
     CHECK(previous > 3.0);
   }
@@ -80,7 +81,8 @@ TEST_CASE("64 periods taken for one: growth and turns are 64 times those of one"
     const auto a = at(one, 1e-12), b = at(many, 1e-12);
     CAPTURE(delta, epsilon, a.growth, b.growth, b.error);
     CHECK(a.verdict == b.verdict);
-    largest = std::max({largest, std::abs(b.growth / 64.0 - a.growth), std::abs(b.winding / 64.0 - a.winding)});
+    largest =
+        std::max({largest, std::abs(b.growth / 64.0 - a.growth), std::abs(b.winding / 64.0 - a.winding)});
   }
   check_within("N21 growth and winding of 64 periods over 64: difference from those of one", largest, 1e-14);
 }

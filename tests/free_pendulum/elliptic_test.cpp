@@ -72,8 +72,8 @@ TEST_CASE("Boost, SciPy #8480: Jacobi's functions of a phase in turns",
   // k = 1e-5, about 1.6e8 turns: there Boost's series for small k is off by 3e-4 in double
   const double k_prime = GENERATE(1.0, 1.0 - 1e-13, 0.99999999995, 0.9, 0.3, 1e-3, 1e-9, 1e-17);
   // next to 0.25 Boost's dn is 0/0 in double, beyond u = 355 (k' = 1e-300) SciPy's ellipj was NaN (#8480)
-  const double turns =
-      GENERATE(0.0, 1e-200, 0.01, 0.1, 0.125, 0.24999, 0.25 - 1e-10, 0.25, 0.3, 0.5, -0.7, 1e6 + 0.1, 1.6e8 + 0.3);
+  const double turns = GENERATE(0.0, 1e-200, 0.01, 0.1, 0.125, 0.24999, 0.25 - 1e-10, 0.25, 0.3, 0.5, -0.7,
+                                1e6 + 0.1, 1.6e8 + 0.3);
   INFO("k' = " << k_prime << ", turns = " << turns);
   const Real quarter = exact::ratio_by_agm(Real(k_prime)) * exact::pi<Real>() / 2;
   const Real rest = Real(turns) - round(Real(turns));  // Boost loses digits at late phases, too

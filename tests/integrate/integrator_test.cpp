@@ -104,8 +104,8 @@ TEST_CASE("the number of steps shows the order of a method", "[integrate][accura
 
 TEST_CASE("halving the step cuts the error by two to the order, at a fixed price for each step",
           "[integrate][accuracy][cost][ratchet]") {
-  // Kepler's ellipse of eccentricity 0.3, back at its start after 2 pi: nonlinear, so that every order condition
-  // counts. The tolerance accepts every step, so that max_step decides.
+  // Kepler's ellipse of eccentricity 0.3, back at its start after 2 pi: nonlinear, so that every order
+  // condition counts. The tolerance accepts every step, so that max_step decides.
   const auto f = [](double, StateView y, StateOut dydt) {
     const double cube = std::pow(y[0] * y[0] + y[1] * y[1], 1.5);
     dydt[0] = y[2], dydt[1] = y[3], dydt[2] = -y[0] / cube, dydt[3] = -y[1] / cube;

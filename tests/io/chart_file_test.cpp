@@ -112,8 +112,9 @@ TEST_CASE("NPY headers are aligned for every shape", "[io][chart_file]") {
 
 TEST_CASE("several layers do not go into .npy", "[io][chart_file]") {
   const ScratchDirectory directory;
-  const auto message = message_of<InvalidInput>(
-      [&] { make_chart_writer(directory / "c.npy", description_of(2, 2, {Layer::verdict, Layer::growth})); });
+  const auto message = message_of<InvalidInput>([&] {
+    make_chart_writer(directory / "c.npy", description_of(2, 2, {Layer::verdict, Layer::growth}));
+  });
   CHECK(message.find(".npz") != std::string::npos);
   CHECK(directory.names().empty());
 }
@@ -202,7 +203,8 @@ TEST_CASE("a full disk leaves the old result and nothing else", "[io][chart_file
 TEST_CASE("the disk is full when HDF5 writes its last bytes", "[io][chart_file][F7]") {
   const ScratchDirectory directory;
   auto d = description_of(5, 5, {Layer::growth});
-  d.provenance.emplace_back("scene", std::string(1 << 18, 's'));  // a long text that goes to the heap of the file
+  d.provenance.emplace_back("scene",
+                            std::string(1 << 18, 's'));  // a long text that goes to the heap of the file
   {
     const SmallDisk disk;
     CHECK_THROWS_AS(

@@ -40,7 +40,8 @@ bool python(const ScratchDirectory& directory, const std::string& modules, const
       "    e = np.array([[cell(l, j, i) for i in range(nx)] for j in range(ny)])\n"
       "    assert np.array_equal(a.astype(float), e, equal_nan=True), (l, a, e)\n";
   directory.with("check.py", prelude + script);
-  const std::string command = "cd '" + directory.path().string() + "' && /usr/bin/python3 check.py > log 2>&1";
+  const std::string command =
+      "cd '" + directory.path().string() + "' && /usr/bin/python3 check.py > log 2>&1";
   const int status = std::system(command.c_str());
   INFO(content_of(directory / "log"));
   CHECK(status == 0);
@@ -63,7 +64,8 @@ TEST_CASE("NumPy reads .npy and .npz", "[io][chart_file][python]") {
          "for l in L: check(l, z[l], 7, 5)\n"
          "assert z['x'].shape == (5,) and z['x'][0] == 1.0 and z['y'][-1] == -1.0\n"
          "meta = json.loads(z['meta.json'])\n"
-         "assert meta['layers']['verdict']['values'] == {'stable': 0, 'unstable': 1, 'boundary': 2, 'unresolved': 3}\n"
+         "assert meta['layers']['verdict']['values'] == {'stable': 0, 'unstable': 1, 'boundary': 2, "
+         "'unresolved': 3}\n"
          "assert meta['provenance']['command'] == 'strutt chart'\n"
          "assert np.load('one.npz')['verdict'].shape == (1, 1)\n"
          "check('growth', np.load('g.npy'), 7, 5)\n"
@@ -75,7 +77,8 @@ TEST_CASE("an archive beyond 4 GiB uses ZIP64 fields", "[io][chart_file][python]
   const std::vector<std::string> contents{"abc", std::string(300, 'x'), "end"};
   const std::vector<std::uint32_t> crcs{0x352441C2, 0, 0};
   std::vector<ZipMember> members;
-  for (const auto& content : contents) members.push_back({"m" + std::to_string(members.size()), content.size()});
+  for (const auto& content : contents)
+    members.push_back({"m" + std::to_string(members.size()), content.size()});
   const ZipLayout layout(members, 100);  // as if 100 bytes were 4 GiB
   std::string bytes(layout.directory_offset(), '\0');
   for (std::size_t i = 0; i < contents.size(); ++i) {

@@ -136,7 +136,8 @@ TEST_CASE("a figure is drawn as PNG, SVG and PDF, whatever its shape", "[io][fig
   CHECK(drawn(scratch / "a.pdf", 20, 10).starts_with("%PDF"));
   const std::string svg = drawn(scratch / "a.svg", 20, 10);
   CHECK(svg.find("<svg") != std::string::npos);
-  for (const char* text : {"delta", "it's $`\\ &lt;&amp;>", "stable", "unstable", "edge of stability", "equal growth"}) {
+  for (const char* text :
+       {"delta", "it's $`\\ &lt;&amp;>", "stable", "unstable", "edge of stability", "equal growth"}) {
     CHECK(svg.find(text) != std::string::npos);
   }
   CHECK(drawn(scratch / "b.svg", 1, 1).find("</svg>") != std::string::npos);
@@ -154,11 +155,13 @@ TEST_CASE("the copy for a figure does not grow with the chart", "[io][figure]") 
 
 TEST_CASE("what is wrong with a figure is said before anything is drawn", "[io][figure]") {
   const ScratchDirectory scratch;
-  CHECK(message_of<InvalidInput>([&] { ChartFigure(scratch / "a.gif", description_of(2, 2)); }).find(".png, .svg or .pdf") !=
-        std::string::npos);
+  CHECK(message_of<InvalidInput>([&] {
+          ChartFigure(scratch / "a.gif", description_of(2, 2));
+        }).find(".png, .svg or .pdf") != std::string::npos);
   auto d = description_of(2, 2);
   d.request.layers = {Layer::verdict};
-  CHECK(message_of<InvalidInput>([&] { ChartFigure(scratch / "a.png", d); }).find("growth") != std::string::npos);
+  CHECK(message_of<InvalidInput>([&] { ChartFigure(scratch / "a.png", d); }).find("growth") !=
+        std::string::npos);
   CHECK_THROWS_AS(ChartFigure(scratch / "none/a.png", description_of(2, 2)), InputOutputError);
   CHECK(scratch.names().empty());
 }
@@ -168,7 +171,8 @@ TEST_CASE("the ending of a figure is taken in any case", "[io][figure]") {
   CHECK(figure_format("a.PNG") == FigureFormat::png);
   CHECK(figure_format("A.Svg") == FigureFormat::svg);
   CHECK(figure_format("a.b.PDF") == FigureFormat::pdf);
-  for (const char* name : {"png", ".png", "a.png.gz", "a.PNGS", "a."}) CHECK_THROWS_AS(figure_format(name), InvalidInput);
+  for (const char* name : {"png", ".png", "a.png.gz", "a.PNGS", "a."})
+    CHECK_THROWS_AS(figure_format(name), InvalidInput);
 }
 
 TEST_CASE("without gnuplot the message says so and the old picture stays", "[io][figure][F7]") {
@@ -176,7 +180,8 @@ TEST_CASE("without gnuplot the message says so and the old picture stays", "[io]
   const auto path = scratch.with("a.png", "old");
   const std::string old_path = std::getenv("PATH");
   ::setenv("PATH", scratch.path().c_str(), 1);
-  CHECK(message_of<InputOutputError>([&] { drawn(path, 4, 4); }).find("gnuplot is not installed") != std::string::npos);
+  CHECK(message_of<InputOutputError>([&] { drawn(path, 4, 4); }).find("gnuplot is not installed") !=
+        std::string::npos);
   ::setenv("PATH", old_path.c_str(), 1);
   CHECK(content_of(path) == "old");
   CHECK(scratch.names().size() == 1);

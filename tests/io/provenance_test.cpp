@@ -24,8 +24,10 @@ class Environment {
     ::setenv(name, value, 1);
   }
   ~Environment() {
-    if (old_) ::setenv(name_, old_->c_str(), 1);
-    else ::unsetenv(name_);
+    if (old_)
+      ::setenv(name_, old_->c_str(), 1);
+    else
+      ::unsetenv(name_);
   }
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
@@ -60,8 +62,10 @@ TEST_CASE("a date beyond 2106 and a malformed SOURCE_DATE_EPOCH", "[io][provenan
   CHECK(value_of(make_provenance(), "date").size() == 20);
 }
 
-TEST_CASE("values of several lines stay comments, escape codes do not reach the terminal", "[io][provenance][F6]") {
-  const std::string text = comment_lines({{"scene", "[hill]\nperiod = 1.0\n"}, {"command", "strutt \x1b[31m"}});
+TEST_CASE("values of several lines stay comments, escape codes do not reach the terminal",
+          "[io][provenance][F6]") {
+  const std::string text =
+      comment_lines({{"scene", "[hill]\nperiod = 1.0\n"}, {"command", "strutt \x1b[31m"}});
   CHECK(text == "# scene: [hill]\n#   period = 1.0\n# command: strutt \\x1B[31m\n");
 }
 

@@ -46,22 +46,25 @@ TEST_CASE("a pendulum scene has the documented defaults", "[io][scene_file]") {
 }
 
 TEST_CASE("all shapes, equilibria and forms of a support", "[io][scene_file]") {
-  const auto body = scene_of("[pendulum]\nshape = \"body\"\ninertia = 0.4\ncentroid = 0.5\nabout = \"inverted\"\n");
+  const auto body =
+      scene_of("[pendulum]\nshape = \"body\"\ninertia = 0.4\ncentroid = 0.5\nabout = \"inverted\"\n");
   CHECK(body.pendulum->shape == PendulumTable::Shape::body);
   CHECK(body.pendulum->about == Equilibrium::inverted);
   CHECK(scene_of("[pendulum]\nshape = \"point_mass\"\nlength = 2\n").pendulum->length == 2.0);
-  const auto harmonics = scene_of(kRod +
-                                  "[support]\nfrequency = 3\nharmonics = [{ order = 1, cos = 0.0, sin = 0.05 }, "
-                                  "{ order = 3, sin = 0.01 }]\n");
+  const auto harmonics =
+      scene_of(kRod +
+               "[support]\nfrequency = 3\nharmonics = [{ order = 1, cos = 0.0, sin = 0.05 }, "
+               "{ order = 3, sin = 0.01 }]\n");
   REQUIRE(harmonics.support->harmonics.size() == 2);
   CHECK(harmonics.support->harmonics[1].order == 3);
   CHECK(harmonics.support->harmonics[1].cosine == 0.0);
   CHECK(harmonics.support->harmonics[1].sine == 0.01);
-  const auto square =
-      scene_of(kRod + "[support]\nfrequency = 3\nwaveform = \"square_acceleration\"\namplitude = 0\nphase = 1\n");
+  const auto square = scene_of(
+      kRod + "[support]\nfrequency = 3\nwaveform = \"square_acceleration\"\namplitude = 0\nphase = 1\n");
   CHECK(square.support->waveform == Waveform::square);
   CHECK(square.support->amplitude == 0.0);
-  const auto listed = scene_of(kRod + "[[support.harmonics]]\norder = 2\ncos = 0.1\n[support]\nfrequency = 3\n");
+  const auto listed =
+      scene_of(kRod + "[[support.harmonics]]\norder = 2\ncos = 0.1\n[support]\nfrequency = 3\n");
   CHECK(listed.support->harmonics[0].order == 2);
 }
 
@@ -101,7 +104,8 @@ TEST_CASE("Mathieu's equation in both forms", "[io][scene_file]") {
   CHECK(other.mathieu->mathieu_form);
   CHECK(parameter(other, "mathieu.a") == 2.0);
   CHECK(parameter(other, "mathieu.q") == -3.0);
-  CHECK(complaint("[mathieu]\ndelta = 1\nq = 2\n") == "s.toml:3:5: mathieu.delta and mathieu.q exclude each other");
+  CHECK(complaint("[mathieu]\ndelta = 1\nq = 2\n") ==
+        "s.toml:3:5: mathieu.delta and mathieu.q exclude each other");
   CHECK(complaint("[mathieu]\na = 1\n") == "s.toml:1:1: mathieu.q is missing");
 }
 
@@ -115,14 +119,16 @@ TEST_CASE("Hill's equation with harmonics or as a square wave", "[io][scene_file
   CHECK(square.hill->waveform == Waveform::square);
   CHECK(complaint("[hill]\nperiod = 2\namplitude = 1\n") ==
         "s.toml:3:13: hill.amplitude goes with waveform = \"square\" only");
-  CHECK(contains(complaint("[hill]\nperiod = 2\nwaveform = \"square\"\nharmonics = []\n"), "exclude each other"));
+  CHECK(contains(complaint("[hill]\nperiod = 2\nwaveform = \"square\"\nharmonics = []\n"),
+                 "exclude each other"));
 }
 
 TEST_CASE("a linear system with matrices", "[io][scene_file]") {
   const std::string head = "[linear]\nperiod = 6.283185307179586\nmass = [[1,0],[0,1]]\n";
-  const auto scene = scene_of(head +
-                              "stiffness = { mean = [[1,0],[0,2]], harmonics = [{ order = 1, cos = [[0.1,0.2],"
-                              "[0.2,0.1]] }] }\ndamping = { mean = [[0,0],[0,0]] }\n");
+  const auto scene =
+      scene_of(head +
+               "stiffness = { mean = [[1,0],[0,2]], harmonics = [{ order = 1, cos = [[0.1,0.2],"
+               "[0.2,0.1]] }] }\ndamping = { mean = [[0,0],[0,0]] }\n");
   CHECK(scene.linear->degrees_of_freedom() == 2);
   CHECK(parameter(scene, "linear.stiffness.harmonics.1.cos.0.1") == 0.2);
   CHECK(parameter(scene, "linear.stiffness.harmonics.1.sin.0.1") == 0.0);
@@ -135,17 +141,20 @@ TEST_CASE("a linear system with matrices", "[io][scene_file]") {
         "s.toml:4:22: linear.stiffness.mean is empty: it must be a square matrix, a list of rows");
   CHECK(complaint(head + "stiffness = { mean = [[1,0],[0,true]] }\n") ==
         "s.toml:4:32: linear.stiffness.mean.1.1 must be a number, not a boolean");
-  CHECK(complaint(head + "stiffness = [[1,0],[0,1]]\n") == "s.toml:4:13: linear.stiffness must be a table, not a list");
+  CHECK(complaint(head + "stiffness = [[1,0],[0,1]]\n") ==
+        "s.toml:4:13: linear.stiffness must be a table, not a list");
   CHECK(complaint(head) == "s.toml:1:1: linear.stiffness is missing");
-  CHECK(contains(complaint("[linear]\nperiod = 1\nmass = [[0]]\nstiffness = { mean = [[1]] }\n"), "linear.mass"));
+  CHECK(contains(complaint("[linear]\nperiod = 1\nmass = [[0]]\nstiffness = { mean = [[1]] }\n"),
+                 "linear.mass"));
 }
 
 TEST_CASE("a chart table", "[io][scene_file]") {
-  const auto file = parse_scene(kShaken +
-                                    "[chart]\nx = { parameter = \"support.frequency\", from = \"1 Hz\", to = 30, points = "
-                                    "12, scale = \"log\" }\ny = { parameter = \"support.amplitude\", from = \"5 mm\", to = "
-                                    "0 }\nlayers = [\"verdict\", \"margin\"]\ntolerance = 1e-6\n",
-                                "s.toml");
+  const auto file =
+      parse_scene(kShaken +
+                      "[chart]\nx = { parameter = \"support.frequency\", from = \"1 Hz\", to = 30, points = "
+                      "12, scale = \"log\" }\ny = { parameter = \"support.amplitude\", from = \"5 mm\", to = "
+                      "0 }\nlayers = [\"verdict\", \"margin\"]\ntolerance = 1e-6\n",
+                  "s.toml");
   REQUIRE(file.chart.x);
   CHECK(file.chart.x->from == 2 * std::numbers::pi);
   CHECK(file.chart.x->points == 12);
@@ -168,7 +177,9 @@ TEST_CASE("harmless varieties of TOML", "[io][scene_file]") {
 }
 
 TEST_CASE("decimals of any length in a scene are correctly rounded", "[io][scene_file][number]") {
-  const auto mean = [](const std::string& text) { return scene_of("[hill]\nperiod = 1\nmean = " + text + "\n").hill->mean; };
+  const auto mean = [](const std::string& text) {
+    return scene_of("[hill]\nperiod = 1\nmean = " + text + "\n").hill->mean;
+  };
   CHECK(mean("0." + std::string(300, '3')) == 1.0 / 3.0);
   const std::string half = "1.00000000000000011102230246251565404236316680908203125";
   CHECK(mean(half) == 1.0);
@@ -194,17 +205,21 @@ TEST_CASE("a scene written is the scene read", "[io][scene_file]") {
   written(kShaken + "[moment]\nconstant = 1\nharmonics = [{ order = 2, cos = 1e-300 }]\n");
   written(kRod + "[moment]\nconstant = 1\nfrequency = 3\n");
   written("[pendulum]\nshape = \"body\"\ninertia = 1.4\ncentroid = 0.5\nabout = \"inverted\"\n");
-  written(kRod + "[support]\nfrequency = 3\nharmonics = [{ order = 7, sin = 0.1 }, { order = 2, cos = 1 }]\n");
+  written(kRod +
+          "[support]\nfrequency = 3\nharmonics = [{ order = 7, sin = 0.1 }, { order = 2, cos = 1 }]\n");
   written(kRod + "[support]\nfrequency = 3\nsamples = [0.1, 0.2, 1e25]\n");
   written(kRod + "[support]\nfrequency = 3\nwaveform = \"square_acceleration\"\nphase = \"30 deg\"\n");
   written("[mathieu]\na = 0.1\nq = 1e22\n");
   written("[hill]\nperiod = 3.3\nwaveform = \"square\"\namplitude = -1\n");
   written("[hill]\nperiod = 3.3\n");
-  written("[linear]\nperiod = 2\nmass = [[2]]\nstiffness = { mean = [[1]], harmonics = [{ order = 1, cos = [[0.1]] }] }\n"
-          "damping = { mean = [[-0.5]] }\n");
-  CHECK(contains(written(kShaken + "[chart]\nx = { parameter = \"support.frequency\", from = 0.1, to = 30, points = 5, "
-                                   "scale = \"log\" }\nlayers = [\"growth\"]\ntolerance = 1e-7\n"),
-                 "x = { parameter = \"support.frequency\", from = 0.1, to = 30.0, points = 5, scale = \"log\" }\n"));
+  written(
+      "[linear]\nperiod = 2\nmass = [[2]]\nstiffness = { mean = [[1]], harmonics = [{ order = 1, cos = "
+      "[[0.1]] }] }\n"
+      "damping = { mean = [[-0.5]] }\n");
+  CHECK(contains(
+      written(kShaken + "[chart]\nx = { parameter = \"support.frequency\", from = 0.1, to = 30, points = 5, "
+                        "scale = \"log\" }\nlayers = [\"growth\"]\ntolerance = 1e-7\n"),
+      "x = { parameter = \"support.frequency\", from = 0.1, to = 30.0, points = 5, scale = \"log\" }\n"));
 }
 
 TEST_CASE("a scene file that cannot be read is an input/output error", "[io][scene_file]") {
@@ -212,7 +227,8 @@ TEST_CASE("a scene file that cannot be read is an input/output error", "[io][sce
   CHECK_THROWS_AS(read_scene(directory / "missing.toml"), InputOutputError);
   CHECK_THROWS_AS(read_scene(directory.path()), InputOutputError);
   const auto large = directory.with("large.toml", std::string((1 << 20) + 1, '#'));
-  CHECK(contains(message_of<FileError>([&] { read_scene(large); }), "large.toml: the file is larger than 1 MiB"));
+  CHECK(contains(message_of<FileError>([&] { read_scene(large); }),
+                 "large.toml: the file is larger than 1 MiB"));
 }
 
 }  // namespace strutt::test::scene_file_test

@@ -49,7 +49,8 @@ TEST_CASE("a plain table is read with the lines of its rows", "[io][table]") {
   CHECK(table.lines == std::vector<int>{3, 5});
   CHECK(table.cell_columns == std::vector<int>{1, 3, 1, 3});
   CHECK(table.column("beta") == 1);
-  CHECK(message_of<FileError>([&] { (void)table.column("gamma"); }).find("'alpha', 'beta'") != std::string::npos);
+  CHECK(message_of<FileError>([&] { (void)table.column("gamma"); }).find("'alpha', 'beta'") !=
+        std::string::npos);
 }
 
 TEST_CASE("a complaint about a cell names its place", "[io][table]") {
@@ -61,17 +62,22 @@ TEST_CASE("a complaint about a cell names its place", "[io][table]") {
 
 TEST_CASE("harmless varieties of CSV mean the same", "[io][table]") {
   const std::vector<std::vector<double>> expected{{1, 2}, {3, 4}};
-  const std::string content = GENERATE(
-      "alpha,beta\n1,2\n3,4", "alpha,beta\r\n1,2\r\n3,4\r\n", "\xEF\xBB\xBF" "alpha,beta\n1,2\n3,4\n",
-      "alpha,beta\n1,2\n3,4\n\n", "alpha,beta\r\n1,2\r\n3,4\r\n\r\n", "\xEF\xBB\xBF# units: m,s\r\nalpha,beta\r\n1,2\r\n3,4",
-      "alpha [m],beta [rad/s]\n1,2\n3,4\n", "alpha, beta\n 1,\t2 \n3, 4\n", "alpha,beta\n1.,2.0\n+3,04\n");
+  const std::string content =
+      GENERATE("alpha,beta\n1,2\n3,4", "alpha,beta\r\n1,2\r\n3,4\r\n",
+               "\xEF\xBB\xBF"
+               "alpha,beta\n1,2\n3,4\n",
+               "alpha,beta\n1,2\n3,4\n\n", "alpha,beta\r\n1,2\r\n3,4\r\n\r\n",
+               "\xEF\xBB\xBF# units: m,s\r\nalpha,beta\r\n1,2\r\n3,4", "alpha [m],beta [rad/s]\n1,2\n3,4\n",
+               "alpha, beta\n 1,\t2 \n3, 4\n", "alpha,beta\n1.,2.0\n+3,04\n");
   CHECK(read(content).rows == expected);
 }
 
 TEST_CASE("a unit in the header converts the column", "[io][table]") {
   const ScratchDirectory directory;
   const TableSchema schema{.required = {"length"}, .optional = {"label"}, .units = {{"length", "m"}}};
-  const auto rows = [&](const std::string& text) { return read_table(directory.with("t.csv", text), schema).rows; };
+  const auto rows = [&](const std::string& text) {
+    return read_table(directory.with("t.csv", text), schema).rows;
+  };
   using Rows = std::vector<std::vector<double>>;
   CHECK(rows("length [cm],label [anything]\n7,7\n") == Rows{{0.07, 7.0}});  // correctly rounded, not 7 * 0.01
   CHECK(rows("length[ mm ]\n1e3\n") == Rows{{1.0}});
@@ -79,9 +85,9 @@ TEST_CASE("a unit in the header converts the column", "[io][table]") {
   CHECK(rows("length []\n7\n") == Rows{{7.0}});
   const auto refusal = [&](const std::string& text) { return message_of<FileError>([&] { rows(text); }); };
   CHECK_THAT(refusal("label,length [s]\n1,2\n"), Catch::Matchers::Contains("t.csv:1:7: column 'length': ") &&
-                                                      Catch::Matchers::Contains("wrong dimension"));
-  CHECK_THAT(refusal("length [km]\n1\n1e308\n"), Catch::Matchers::Contains("t.csv:3:1: ") &&
-                                                       Catch::Matchers::Contains("beyond the range"));
+                                                     Catch::Matchers::Contains("wrong dimension"));
+  CHECK_THAT(refusal("length [km]\n1\n1e308\n"),
+             Catch::Matchers::Contains("t.csv:3:1: ") && Catch::Matchers::Contains("beyond the range"));
   CHECK_THAT(refusal("length [cm]\n7 cm\n"), Catch::Matchers::Contains("t.csv:2:1: '7 cm'"));
 }
 
@@ -91,7 +97,8 @@ TEST_CASE("what is wrong in a table is named with file, line and column", "[io][
   CHECK(complaint("alpha,bta\n1,2\n") == "in.csv:1:7: unknown column 'bta'; did you mean 'beta'?");
   CHECK(complaint("alpha,x\n1,2\n") == "in.csv:1:7: unknown column 'x'; known are 'alpha', 'beta', 'gamma'");
   CHECK(complaint("beta\n1\n") == "in.csv:1:1: the column 'alpha' is missing; the columns are 'beta'");
-  CHECK(complaint("alpha,beta,alpha\n1,2,3\n") == "in.csv:1:12: the column 'alpha' stands here a second time");
+  CHECK(complaint("alpha,beta,alpha\n1,2,3\n") ==
+        "in.csv:1:12: the column 'alpha' stands here a second time");
   CHECK(complaint("alpha,beta\n1,\n") == "in.csv:2:3: empty cell in column 'beta'");
   CHECK(complaint("alpha,,beta\n1,2,3\n") == "in.csv:1:7: a column has no name");
   CHECK(complaint("alpha\n1\n\n2\n") == "in.csv:3:1: blank line inside the table");
@@ -103,12 +110,14 @@ TEST_CASE("what is wrong in a table is named with file, line and column", "[io][
 }
 
 TEST_CASE("cells that are no finite decimal numbers are refused", "[io][table][F3]") {
-  const std::string cell = GENERATE("nan", "NaN", "-nan", "inf", "-Infinity", "1e999", "-1e400", "0x1p3", "0x10", "1;5",
-                                    "1e", "e5", ".", "-", "1.2.3", "1 2", "1_000", "1.0f", "٣", "--1", "1e5.0");
+  const std::string cell =
+      GENERATE("nan", "NaN", "-nan", "inf", "-Infinity", "1e999", "-1e400", "0x1p3", "0x10", "1;5", "1e",
+               "e5", ".", "-", "1.2.3", "1 2", "1_000", "1.0f", "٣", "--1", "1e5.0");
   INFO(cell);
   const auto message = complaint("beta,alpha\n7," + cell + "\n");
   CHECK(message.starts_with("in.csv:2:3: '"));
-  CHECK(message.find("in column 'alpha' is not a finite decimal number in the range of double") != std::string::npos);
+  CHECK(message.find("in column 'alpha' is not a finite decimal number in the range of double") !=
+        std::string::npos);
 }
 
 TEST_CASE("bytes that are no text are refused where they stand", "[io][table][F3]") {
@@ -116,7 +125,10 @@ TEST_CASE("bytes that are no text are refused where they stand", "[io][table][F3
   CHECK(complaint("alpha\n1\xff\n") == "in.csv:2:2: the byte 0xFF is not part of valid UTF-8");
   CHECK(complaint("# caf\xe9\nalpha\n1\n") == "in.csv:1:6: the byte 0xE9 is not part of valid UTF-8");
   CHECK(complaint("alpha\r1\r") == "in.csv:1:6: the control character 0x0D is not allowed");
-  CHECK(complaint(std::string("\xff\xfe" "a\0", 4)).starts_with("in.csv:1:1: the byte 0xFF"));
+  CHECK(complaint(std::string("\xff\xfe"
+                              "a\0",
+                              4))
+            .starts_with("in.csv:1:1: the byte 0xFF"));
   CHECK(complaint("al\x1b[31mpha\n1\n").starts_with("in.csv:1:3: the control character 0x1B"));
 }
 
@@ -124,7 +136,8 @@ TEST_CASE("a million columns and a line without end stop early", "[io][table][F3
   std::string columns = "alpha";
   for (int i = 0; i < 1'000'000; ++i) columns += ",x";
   CHECK(complaint(columns + "\n1\n").starts_with("in.csv:1:7: unknown column 'x'"));
-  CHECK(complaint(std::string((1 << 24) + 100'000, 'x')).starts_with("in.csv:1:1: the line is longer than 16 MiB"));
+  CHECK(complaint(std::string((1 << 24) + 100'000, 'x'))
+            .starts_with("in.csv:1:1: the line is longer than 16 MiB"));
 }
 
 TEST_CASE("a table that cannot be read is an input/output error", "[io][table]") {

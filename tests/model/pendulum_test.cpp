@@ -251,7 +251,8 @@ TEST_CASE("Small and large roots have their limits", "[model][pendulum][extreme]
   CHECK(critical[1] == std::complex{-2.0, 0.0});
 }
 
-TEST_CASE("Bodies that cannot be are refused by name, value and range", "[model][pendulum][error][extreme][N38]") {
+TEST_CASE("Bodies that cannot be are refused by name, value and range",
+          "[model][pendulum][error][extreme][N38]") {
   for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     CHECK_THROWS_WITH(PhysicalPendulum::uniform_rod(1.0, bad), Catch::StartsWith("length = " + to_text(bad)));
     CHECK_THROWS_WITH(PhysicalPendulum::point_mass(1.0, bad), Catch::StartsWith("length = " + to_text(bad)));

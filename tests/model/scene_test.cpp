@@ -140,8 +140,9 @@ TEST_CASE("Parameters of absent parts do not exist, and the nearest one is named
         "unknown parameter 'hill.harmonics.2.cos' for this scene; did you mean 'hill.harmonics.1.cos'?");
   CHECK(message(linear_scene(), "linear.mass.2.0") != "");
   for (const std::string strange : {"x", ""}) {
-    CHECK(message(rod_scene(), strange.c_str()).starts_with("unknown parameter '" + strange +
-                                                    "' for this scene; known are 'pendulum.mass', 'pendulum.length'"));
+    CHECK(message(rod_scene(), strange.c_str())
+              .starts_with("unknown parameter '" + strange +
+                           "' for this scene; known are 'pendulum.mass', 'pendulum.length'"));
   }
 }
 
@@ -173,7 +174,8 @@ TEST_CASE("validate names the parameter that is out of range", "[model][scene][e
         "");  // [linear] takes any
 }
 
-TEST_CASE("validate finds what is not finite anywhere, lists included", "[model][scene][error][extreme][N36]") {
+TEST_CASE("validate finds what is not finite anywhere, lists included",
+          "[model][scene][error][extreme][N36]") {
   for (const auto& scene : every_kind()) {
     for (const auto& path : parameter_paths(scene)) {
       CHECK_THAT(refused(scene, [&](Scene& s) { parameter(s, path) = std::nan(""); }),

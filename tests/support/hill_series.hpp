@@ -10,7 +10,7 @@ namespace reference {
 /// Fundamental matrix [x1, x2; x1', x2'] of x'' + w(t) x = 0 over [0, 2 pi] to about 1e-17 for a Fourier
 /// series w with sqrt|w| up to `steps`/3: the power series of x over equal steps, in long double.
 inline std::array<std::array<long double, 2>, 2> hill_matrix(const strutt::PeriodicFunction& w,
-                                                              int steps = 64) {
+                                                             int steps = 64) {
   constexpr int kTerms = 30;
   const long double h = 2.0L * std::acos(-1.0L) / steps;
   std::array<std::array<long double, 2>, 2> state{{{1.0L, 0.0L}, {0.0L, 1.0L}}};

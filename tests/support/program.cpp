@@ -91,7 +91,8 @@ Program::~Program() {
 void Program::send(int signal) const { REQUIRE(::kill(child_, signal) == 0); }
 
 Result Program::wait() {
-  const auto last = std::chrono::steady_clock::now() + std::chrono::minutes(5);  // a sanitizer on a busy machine
+  const auto last =
+      std::chrono::steady_clock::now() + std::chrono::minutes(5);  // a sanitizer on a busy machine
   int status = 0;
   pid_t ended = 0;
   while ((ended = ::waitpid(child_, &status, WNOHANG)) == 0) {

@@ -27,7 +27,8 @@ LinearModel hill_model(const Row& r) {
 }
 
 LinearModel pendulum_model(const Row& r) {
-  const auto rod = PhysicalPendulum::uniform_rod(1.0, r.input("length"), r.input("gravity"), r.input("damping"));
+  const auto rod =
+      PhysicalPendulum::uniform_rod(1.0, r.input("length"), r.input("gravity"), r.input("damping"));
   const auto support = sinusoidal_support(r.input("amplitude"), r.input("frequency"), r.input("phase"));
   const auto about = r.text("about") == "hanging" ? Equilibrium::hanging : Equilibrium::inverted;
   return linearise(rod, about, &support).equation;
@@ -68,7 +69,8 @@ std::vector<Row> read(const std::string& table) {
 }
 
 LinearModel model(const std::string& table, const Row& r) {
-  if (table == "mathieu") return mathieu_delta_epsilon(r.input("delta"), r.input("epsilon"), r.input("damping"));
+  if (table == "mathieu")
+    return mathieu_delta_epsilon(r.input("delta"), r.input("epsilon"), r.input("damping"));
   if (table == "hill") return hill_model(r);
   if (table == "pendulum") return pendulum_model(r);
   if (table == "linear4") return linear_system(r);
@@ -79,7 +81,8 @@ LinearModel model(const std::string& table, const Row& r) {
 double true_error(const LinearModel& model, const Stability& result, const Row& row) {
   const Eigen::Index n = result.matrix.rows(), d = n / 2;
   const auto* equation = std::get_if<HillEquation>(&model);
-  const Real kappa = equation != nullptr ? Real(equation->canonical_kappa()) * equation->angular_frequency : Real(1);
+  const Real kappa =
+      equation != nullptr ? Real(equation->canonical_kappa()) * equation->angular_frequency : Real(1);
   const Real scale = exp(Real(result.log_scale));
   Real largest = 1, error = 0, trace = 0;
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -25,10 +25,11 @@ using BoundedMatrix = BasicBoundedMatrix<Eigen::MatrixXd>;
 using BoundedMatrix2 = BasicBoundedMatrix<Eigen::Matrix2d>;
 
 /// The product last * ... * first of factors given in order of application (first factor acts first).
-/// The error of factor j is carried as |S| error_j |P|, with P the product of the factors before it and S of those
-/// after it: one overestimate per factor instead of one per multiplication, so long products of rotations
-/// keep a bound that grows with their number only. Second-order terms and the rounding of the products are included.
-/// An empty list gives the identity of `size`. Without an error in the first factor the product has none.
+/// The error of factor j is carried as |S| error_j |P|, with P the product of the factors before it and S of
+/// those after it: one overestimate per factor instead of one per multiplication, so long products of
+/// rotations keep a bound that grows with their number only. Second-order terms and the rounding of the
+/// products are included. An empty list gives the identity of `size`. Without an error in the first factor
+/// the product has none.
 template <typename Matrix>
 BasicBoundedMatrix<Matrix> ordered_product(const std::vector<BasicBoundedMatrix<Matrix>>& factors, int size);
 

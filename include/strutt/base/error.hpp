@@ -42,7 +42,8 @@ void require(bool valid, std::string_view field, double value, std::string_view 
 /// Shortest decimal text that reads back to the same double, for messages and files ("nan", "inf", "-inf").
 std::string to_text(double value);
 
-/// The candidate with the smallest edit distance to `word`, empty when none is closer than half of its length.
+/// The candidate with the smallest edit distance to `word`, empty when none is closer than half of its
+/// length.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "'a', 'b', 'c'"; of a long list the first twelve and the number of all.

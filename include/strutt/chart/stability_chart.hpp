@@ -36,8 +36,8 @@ struct ChartRequest {
   /// for, the others and charts without a surrogate point by point by the engine's choice. automatic: that,
   /// where it is expected to be the cheapest, else point by point. Every other method: point by point.
   Method method = Method::automatic;
-  int threads = 0;             ///< 0: all
-  bool force = false;          ///< lifts the memory budget
+  int threads = 0;     ///< 0: all
+  bool force = false;  ///< lifts the memory budget
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -45,9 +45,9 @@ struct ChartRequest {
 struct ChartPlan {
   std::size_t cells = 0;
   std::size_t rows_per_strip = 0;
-  double result_bytes = 0.0;   ///< of all layers and axes as float64
-  double working_bytes = 0.0;  ///< of strip buffer, workspaces and surrogate; does not grow with the rows
-  double budget_bytes = 0.0;   ///< memory_budget()
+  double result_bytes = 0.0;      ///< of all layers and axes as float64
+  double working_bytes = 0.0;     ///< of strip buffer, workspaces and surrogate; does not grow with the rows
+  double budget_bytes = 0.0;      ///< memory_budget()
   double expected_seconds = 0.0;  ///< chart/forecast.hpp; without reading and writing
   Method method = Method::automatic;  ///< the one that will be used
   /// Why no surrogate is used; empty if one is, or if another method was asked for.
@@ -64,7 +64,8 @@ double memory_budget();
 /// forecasts it. Method::automatic takes the surrogate where a chart takes a hundredth of a second or more
 /// point by point, and at most half of that by the surrogate. The same scene and request but for the threads
 /// give the same plan.
-/// Throws InvalidInput, and MemoryBudgetExceeded when result_bytes or working_bytes > budget_bytes unless `force`.
+/// Throws InvalidInput, and MemoryBudgetExceeded when result_bytes or working_bytes > budget_bytes unless
+/// `force`.
 ChartPlan plan_chart(const Scene& scene, const ChartRequest& request);
 
 /// Consecutive rows of a chart: layer l, row j (from 0 in this strip), column i at
@@ -77,7 +78,8 @@ struct ChartStrip {
   std::vector<std::span<double>> values;  ///< one per requested layer, in the order of the request
 };
 
-/// Receives the strips in order of rows, on the calling thread. What `values` show is written over afterwards.
+/// Receives the strips in order of rows, on the calling thread. What `values` show is written over
+/// afterwards.
 using StripSink = std::function<void(const ChartStrip&)>;
 
 /// Cells done so far of all, from the calling thread, a few times a second.
@@ -87,13 +89,13 @@ using ProgressSink = std::function<void(std::size_t done, std::size_t total)>;
 struct ChartSummary {
   bool cancelled = false;
   std::size_t cells = 0;
-  std::size_t unresolved = 0;                     ///< cells whose verdict is unresolved (0 unless asked for)
-  std::vector<std::size_t> outcomes;              ///< cells per Outcome
+  std::size_t unresolved = 0;         ///< cells whose verdict is unresolved (0 unless asked for)
+  std::vector<std::size_t> outcomes;  ///< cells per Outcome
   long right_hand_sides = 0;
-  double largest_error = 0.0;                     ///< of all converged cells
-  std::size_t interpolated = 0;                   ///< cells whose values come from the surrogate
-  std::vector<std::size_t> methods;               ///< cells per Method that gave their values
-  std::optional<SurrogateReport> surrogate;       ///< how building it went
+  double largest_error = 0.0;                ///< of all converged cells
+  std::size_t interpolated = 0;              ///< cells whose values come from the surrogate
+  std::vector<std::size_t> methods;          ///< cells per Method that gave their values
+  std::optional<SurrogateReport> surrogate;  ///< how building it went
 };
 
 /// Computes the chart strip by strip. Cells are independent: the same bits for any number of threads.
@@ -101,8 +103,8 @@ struct ChartSummary {
 ChartSummary compute_chart(const Scene& scene, const ChartRequest& request, const StripSink& sink,
                            const ProgressSink& progress = {});
 
-/// The same straight into arrays of the caller, one per layer in the order of the request, each of ny rows of nx values.
-/// Throws InvalidInput besides if they are not.
+/// The same straight into arrays of the caller, one per layer in the order of the request, each of ny rows of
+/// nx values. Throws InvalidInput besides if they are not.
 ChartSummary compute_chart(const Scene& scene, const ChartRequest& request,
                            std::span<const std::span<double>> arrays, const ProgressSink& progress = {});
 

@@ -23,7 +23,8 @@ struct ChartBox {
 struct TradeoffPoints {
   std::vector<std::string> parameters;
   std::vector<std::vector<double>> rows;
-  std::optional<ChartBox> box = std::nullopt;  ///< that the rows are taken from; only with one is the surrogate measured
+  std::optional<ChartBox> box =
+      std::nullopt;  ///< that the rows are taken from; only with one is the surrogate measured
 };
 
 /// The scene as it stands, one point.
@@ -39,9 +40,9 @@ struct TradeoffRequest {
   TradeoffPoints points = scene_point();
   std::vector<Method> methods = {};     ///< empty: all that fit the scene, `automatic` first
   std::vector<double> tolerances = {};  ///< empty: 1e-2, 1e-3, ..., 1e-13; each in [1e-13, 1e-2]
-  int repeats = 5;                 ///< measurements of every time, >= 1; their median counts
-  double seconds = 0.02;           ///< that a measurement takes at least, >= 0
-  int threads = 0;                 ///< for the reference only; what is timed runs on one. 0: all
+  int repeats = 5;                      ///< measurements of every time, >= 1; their median counts
+  double seconds = 0.02;                ///< that a measurement takes at least, >= 0
+  int threads = 0;                      ///< for the reference only; what is timed runs on one. 0: all
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -89,10 +90,11 @@ double expected_seconds(const Scene& scene, const TradeoffRequest& completed_req
 /// than request.seconds, the points are repeated up to 256, as many as a chart hands over. All rows are timed
 /// in turn, `repeats` times over, so that a slow spell of the machine meets all of them. The front of Pareto
 /// is that of the methods; `automatic`, which is one of them, stays out. `surrogate` is timed as a chart over
-/// the box with verdict, growth and margin, building included, for each of its cells; its right-hand sides are
-/// those of nodes and checks for each cell, and points that it does not answer for are those of `automatic`.
-/// Where it is seen from another phase than 0 its true error is that of the trace. Throws InvalidInput for a bad
-/// request and where no point makes an equation, NumericalFailure where the reference fails.
+/// the box with verdict, growth and margin, building included, for each of its cells; its right-hand sides
+/// are those of nodes and checks for each cell, and points that it does not answer for are those of
+/// `automatic`. Where it is seen from another phase than 0 its true error is that of the trace. Throws
+/// InvalidInput for a bad request and where no point makes an equation, NumericalFailure where the reference
+/// fails.
 Tradeoff measure_tradeoff(const Scene& scene, const TradeoffRequest& request,
                           const TradeoffProgress& progress = {});
 

@@ -40,8 +40,8 @@ struct TongueEdges {
 /// sides.
 ///
 /// Throws InvalidInput unless 0 <= first <= last <= 1000, V has finitely many harmonics or is a square wave
-/// (none of its antiderivatives) and sum |V_k|, the amplitude of the square wave, is at most 1e6. Source: Magnus, Winkler, Hill's Equation (1966), chapters 1
-/// and 2.
+/// (none of its antiderivatives) and sum |V_k|, the amplitude of the square wave, is at most 1e6. Source:
+/// Magnus, Winkler, Hill's Equation (1966), chapters 1 and 2.
 std::vector<TongueEdges> tongue_edges(const PeriodicFunction& coefficient, int first, int last);
 
 /// The mean at which X'' + (mean + V) X = 0 has this winding number: a curve of constant exponent between two

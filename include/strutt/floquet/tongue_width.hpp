@@ -25,10 +25,10 @@ inline constexpr double kWidthAccuracy = 1e-11;
 ///   width = (|beta(lower)| + |beta(upper)|)/|h'| with h' somewhere between them,
 /// a number without cancellation. beta is the way from one mode to the other through all others. Everything
 /// is computed with balls (multi-precision midpoint and radius: the result is proved, as far as the edges
-/// are), at 34, 110 and 350 digits until the relative error is reached. `coefficient_error` bounds the relative
-/// error of each coefficient of V: the balls of the harmonics hold it, so that what is left of ways that cancel
-/// is as uncertain as they are (34 digits are then all that is of use). Where it never is, the tongue is
-/// taken for closed (coexistence): the relative error is then 1 and 2 value is a bound.
+/// are), at 34, 110 and 350 digits until the relative error is reached. `coefficient_error` bounds the
+/// relative error of each coefficient of V: the balls of the harmonics hold it, so that what is left of ways
+/// that cancel is as uncertain as they are (34 digits are then all that is of use). Where it never is, the
+/// tongue is taken for closed (coexistence): the relative error is then 1 and 2 value is a bound.
 ///
 /// A square wave has a closed form: both edges in the sum s1 + s2 of the frequencies of its pieces, without
 /// cancellation (below mean = amplitude, where tongues are wide, by subtraction); some 1e-15 but next to a
@@ -39,9 +39,11 @@ inline constexpr double kWidthAccuracy = 1e-11;
 TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges,
                          double coefficient_error = 0.0);
 
-/// The largest growth inside a narrow tongue, ln of the spectral radius per period: in its middle, to lowest order in the width,
+/// The largest growth inside a narrow tongue, ln of the spectral radius per period: in its middle, to lowest
+/// order in the width,
 ///   2 pi |beta|/|dh/dnu| = pi width |h'|/|dh/dnu|,
 /// nu the exponent. Its relative error is about that of the width plus width/n. 0 for a closed tongue.
-double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges, const TongueWidth& width);
+double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
+                            const TongueWidth& width);
 
 }  // namespace strutt

@@ -21,8 +21,8 @@ struct PropagatorOptions {
 
 /// A propagator integrated twice, how the runs ended, and what they cost.
 struct Propagation {
-  BoundedMatrix matrix;          ///< the main run; `error` bounds its rounding only
-  ScaledMatrix check;            ///< the second run; a copy of the main one where none was asked for
+  BoundedMatrix matrix;  ///< the main run; `error` bounds its rounding only
+  ScaledMatrix check;    ///< the second run; a copy of the main one where none was asked for
   Outcome outcome = Outcome::converged;
   IntegrationCost cost;           ///< of the main run
   IntegrationCost estimate_cost;  ///< of the second run
@@ -35,20 +35,21 @@ inline constexpr double kTruncationSafety = 6.0;
 template <typename Matrix>
 void add_truncation(BasicBoundedMatrix<Matrix>& matrix, const BasicScaledMatrix<Matrix>& check);
 
-/// Fundamental matrices of y' = A(t) y with n states, integrated from the identity by SUNDIALS, and a second time for
-/// the error: ARKODE at 3/100 of the tolerance of an ARKODE run, or at the tolerance of a CVODE run, which is far less
-/// accurate. The rounding bound grows with the number of steps and with `radians`, the phase the solution passes: each
-/// step rounds the state and, by half an ulp, the time.
-/// Not thread-safe; reusable without allocation inside the steppers.
+/// Fundamental matrices of y' = A(t) y with n states, integrated from the identity by SUNDIALS, and a second
+/// time for the error: ARKODE at 3/100 of the tolerance of an ARKODE run, or at the tolerance of a CVODE run,
+/// which is far less accurate. The rounding bound grows with the number of steps and with `radians`, the
+/// phase the solution passes: each step rounds the state and, by half an ulp, the time. Not thread-safe;
+/// reusable without allocation inside the steppers.
 class LinearPropagator {
  public:
   /// `backend` cvode_adams or arkode_erk.
   LinearPropagator(int states, Backend backend);
 
-  /// `f` gives d/dt of the n x n matrix, column by column (n^2 components). `radians`: an upper estimate of the integral of
-  /// sqrt|A^2| over [from, to]; `coefficient_error`: bound of the relative error of the coefficients behind A.
-  Propagation propagate(const RightHandSide& f, double from, double to, double radians, double coefficient_error,
-                        const PropagatorOptions& options);
+  /// `f` gives d/dt of the n x n matrix, column by column (n^2 components). `radians`: an upper estimate of
+  /// the integral of sqrt|A^2| over [from, to]; `coefficient_error`: bound of the relative error of the
+  /// coefficients behind A.
+  Propagation propagate(const RightHandSide& f, double from, double to, double radians,
+                        double coefficient_error, const PropagatorOptions& options);
 
  private:
   int states_;

@@ -23,15 +23,19 @@ class ChartWriter {
  public:
   virtual ~ChartWriter() = default;
   virtual void write(const ChartStrip& strip) = 0;  ///< strips in order of rows
-  /// After the last strip, at most once: what was done, known only now. It follows the provenance, or the cells.
+  /// After the last strip, at most once: what was done, known only now. It follows the provenance, or the
+  /// cells.
   virtual void conclude(const Provenance& done) = 0;
-  virtual void prepare() = 0;  ///< after the last strip: all that can fail but the renaming; OutputFile::prepare
-  virtual void commit() = 0;   ///< prepare, unless that is done; then the file appears under its name
+  virtual void
+  prepare() = 0;  ///< after the last strip: all that can fail but the renaming; OutputFile::prepare
+  virtual void commit() = 0;  ///< prepare, unless that is done; then the file appears under its name
 };
 
-/// The writer for a path, by its ending: .csv, .npy (one layer only), .npz, .h5/.hdf5. `-` is CSV on standard output. Throws
-/// InvalidInput for another ending or several layers in .npy, InputOutputError when the place cannot be written.
-std::unique_ptr<ChartWriter> make_chart_writer(const std::filesystem::path& path, const ChartDescription& description);
+/// The writer for a path, by its ending: .csv, .npy (one layer only), .npz, .h5/.hdf5. `-` is CSV on standard
+/// output. Throws InvalidInput for another ending or several layers in .npy, InputOutputError when the place
+/// cannot be written.
+std::unique_ptr<ChartWriter> make_chart_writer(const std::filesystem::path& path,
+                                               const ChartDescription& description);
 
 /// The unit of a parameter as written to files: "1" for pure numbers.
 std::string unit_of(const ParameterInfo& info);

@@ -9,7 +9,8 @@ namespace strutt {
 /// Where a result came from: ordered name/value pairs, written into every file. No host name, no user name.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
-/// program, version, compiler, library versions, date in UTC (SOURCE_DATE_EPOCH honoured), and `command` if not empty.
+/// program, version, compiler, library versions, date in UTC (SOURCE_DATE_EPOCH honoured), and `command` if
+/// not empty.
 Provenance make_provenance(const std::string& command = {});
 
 /// As comment lines of a text file, "# name: value"; further lines of a value are indented below the first.

@@ -28,17 +28,19 @@ struct SceneFile {
   ChartTable chart;
 };
 
-/// Reads a TOML scene (see docs/scene.md). Everything that is not as documented is a FileError with file, line, column,
-/// the key, the allowed range and, for an unknown key or name, the nearest known one: malformed TOML, unknown keys or
-/// tables, wrong types, missing keys, two models, values outside their range (NaN and infinities included), forms
-/// that exclude each other, units of the wrong dimension, nesting deeper than 32, more than 1 MiB, bytes that are not UTF-8.
-/// The values are validated (strutt::validate), and that they make an equation (strutt::linear_model). Throws InputOutputError if the file cannot be read.
+/// Reads a TOML scene (see docs/scene.md). Everything that is not as documented is a FileError with file,
+/// line, column, the key, the allowed range and, for an unknown key or name, the nearest known one: malformed
+/// TOML, unknown keys or tables, wrong types, missing keys, two models, values outside their range (NaN and
+/// infinities included), forms that exclude each other, units of the wrong dimension, nesting deeper than 32,
+/// more than 1 MiB, bytes that are not UTF-8. The values are validated (strutt::validate), and that they make
+/// an equation (strutt::linear_model). Throws InputOutputError if the file cannot be read.
 SceneFile read_scene(const std::filesystem::path& path);
 
 /// The same from text; `name` stands for the file in messages; sample files are looked for beside `name`.
 SceneFile parse_scene(std::string_view text, const std::string& name);
 
-/// A number, or a number with a unit: "25 cm", "12 rad/s", "2 Hz" (-> rad/s), "30 deg". `dimension` is the SI unit wanted
+/// A number, or a number with a unit: "25 cm", "12 rad/s", "2 Hz" (-> rad/s), "30 deg". `dimension` is the SI
+/// unit wanted
 /// ("m", "rad/s", "1/s", "rad", "kg", "kg m^2", "m/s^2", "N m", "s", ""). Throws InvalidInput.
 double parse_quantity(std::string_view text, std::string_view dimension);
 

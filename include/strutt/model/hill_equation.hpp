@@ -4,10 +4,11 @@
 
 namespace strutt {
 
-/// Hill's equation with damping, x'' + c x' + w(t) x = 0 with period T, held in canonical time theta = Omega t,
-/// Omega = 2 pi/T:
+/// Hill's equation with damping, x'' + c x' + w(t) x = 0 with period T, held in canonical time theta = Omega
+/// t, Omega = 2 pi/T:
 ///   X'' + (c/Omega) X' + W(theta) X = 0,   W = w/Omega^2,   W of period 2 pi.
-/// For one harmonic W = delta + epsilon cos(theta - theta0). docs/conventions.md has the map to Mathieu's (a, q).
+/// For one harmonic W = delta + epsilon cos(theta - theta0). docs/conventions.md has the map to Mathieu's (a,
+/// q).
 struct HillEquation {
   double angular_frequency = 1.0;  ///< Omega > 0, in radians per unit of time
   double damping = 0.0;            ///< c >= 0, per unit of time
@@ -17,12 +18,12 @@ struct HillEquation {
   double coefficient_error = 0.0;
   bool plain_kappa = false;  ///< kappa = Omega whatever the coefficient, as for systems
 
-  double period() const;             ///< T = 2 pi/Omega
-  double delta() const;              ///< mean of W
-  double epsilon() const;            ///< amplitude of the first harmonic of W (square form: largest |W - delta|), >= 0
+  double period() const;   ///< T = 2 pi/Omega
+  double delta() const;    ///< mean of W
+  double epsilon() const;  ///< amplitude of the first harmonic of W (square form: largest |W - delta|), >= 0
   double canonical_damping() const;  ///< c/Omega
-  /// kappa/Omega with kappa = max(2 pi/T, sqrt|mean of w|), the frequency by which x' is made comparable with x;
-  /// 1 with plain_kappa.
+  /// kappa/Omega with kappa = max(2 pi/T, sqrt|mean of w|), the frequency by which x' is made comparable with
+  /// x; 1 with plain_kappa.
   double canonical_kappa() const;
 
   void validate() const;  ///< throws InvalidInput

@@ -19,7 +19,8 @@ struct PhysicalPendulum {
   double damping = 0.0;   ///< c, the coefficient of phi' in (7), 1/s, >= 0
 
   /// The uniform rod of the paper: s = l/2, Theta = m l^2/3, alpha^2 = 3 g/(2 l).
-  static PhysicalPendulum uniform_rod(double mass, double length, double gravity = 9.81, double damping = 0.0);
+  static PhysicalPendulum uniform_rod(double mass, double length, double gravity = 9.81,
+                                      double damping = 0.0);
 
   /// All mass at distance `length`: s = l, Theta = m l^2, alpha^2 = g/l.
   static PhysicalPendulum point_mass(double mass, double length, double gravity = 9.81, double damping = 0.0);
@@ -43,7 +44,8 @@ struct PhysicalPendulum {
   /// phi'' of (7): M/Theta - c phi' - alpha^2 (1 + r''/g) sin(phi), rad/s^2.
   double angular_acceleration(double angle, double rate, double support_acceleration, double moment) const;
   /// Vertical force of the support on the body, m (y_S'' + g), N; its power is force * r'.
-  double support_force(double angle, double rate, double angular_acceleration, double support_acceleration) const;
+  double support_force(double angle, double rate, double angular_acceleration,
+                       double support_acceleration) const;
 
   /// The roots lambda of lambda^2 + c lambda +- alpha^2 = 0 about the equilibrium (+ hanging, - inverted),
   /// larger real part (then larger imaginary part) first; the small root without cancellation.

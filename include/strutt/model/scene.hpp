@@ -49,7 +49,8 @@ struct MomentTable {
   std::optional<double> frequency;  // rad/s; that of the support unless given
 };
 
-/// [mathieu]: x'' + damping x' + (delta + epsilon cos t) x, or in Mathieu's form x'' + damping x' + (a - 2 q cos 2t) x.
+/// [mathieu]: x'' + damping x' + (delta + epsilon cos t) x, or in Mathieu's form x'' + damping x' + (a - 2 q
+/// cos 2t) x.
 struct MathieuTable {
   bool mathieu_form = false;  ///< a and q stand in the scene; the parameters are then mathieu.a and mathieu.q
   double delta = 1.0;         ///< or a
@@ -67,8 +68,8 @@ struct HillTable {
   double damping = 0.0;
 };
 
-/// What a scene contains. Only what is present is modelled: an absent table removes its terms from the equations.
-/// Exactly one of pendulum, mathieu, hill, linear is present; support and moment go with pendulum.
+/// What a scene contains. Only what is present is modelled: an absent table removes its terms from the
+/// equations. Exactly one of pendulum, mathieu, hill, linear is present; support and moment go with pendulum.
 struct Scene {
   std::optional<PendulumTable> pendulum;
   std::optional<SupportTable> support;
@@ -78,17 +79,18 @@ struct Scene {
   std::optional<LinearPeriodicSystem> linear;
 };
 
-/// A dimension that a parameter can have, its SI unit as printed ("" for dimensionless) and what it is called.
+/// A dimension that a parameter can have, its SI unit as printed ("" for dimensionless) and what it is
+/// called.
 struct ParameterInfo {
   std::string path;
   std::string unit;   ///< "m", "rad/s", "1/s", "kg", "kg m^2", "N m", "rad", "m/s^2", "" ...
   std::string label;  ///< for axes, e.g. "support frequency"
 };
 
-/// The numeric parameter that `path` names in this scene (docs/scene.md: `support.frequency`, `mathieu.delta`,
-/// `hill.harmonics.1.cos`, `linear.stiffness.harmonics.1.cos.0.1`), for reading and writing in place.
-/// Parameters of absent tables, of an unused shape or waveform, and of orders not in the list do not exist:
-/// throws InvalidInput naming the path and the nearest one that does.
+/// The numeric parameter that `path` names in this scene (docs/scene.md: `support.frequency`,
+/// `mathieu.delta`, `hill.harmonics.1.cos`, `linear.stiffness.harmonics.1.cos.0.1`), for reading and writing
+/// in place. Parameters of absent tables, of an unused shape or waveform, and of orders not in the list do
+/// not exist: throws InvalidInput naming the path and the nearest one that does.
 double& parameter(Scene& scene, std::string_view path);
 double parameter(const Scene& scene, std::string_view path);
 ParameterInfo parameter_info(const Scene& scene, std::string_view path);
@@ -96,8 +98,8 @@ ParameterInfo parameter_info(const Scene& scene, std::string_view path);
 /// All parameter paths of this scene, in the order of the scene file.
 std::vector<std::string> parameter_paths(const Scene& scene);
 
-/// Checks every range and combination that a model needs (lengths, gravity, frequency, period > 0, damping >= 0, all
-/// finite ...). Throws InvalidInput whose field is the parameter path.
+/// Checks every range and combination that a model needs (lengths, gravity, frequency, period > 0, damping >=
+/// 0, all finite ...). Throws InvalidInput whose field is the parameter path.
 void validate(const Scene& scene);
 
 /// The rigid body, support and moment of a pendulum scene.
@@ -105,13 +107,14 @@ PhysicalPendulum pendulum(const Scene& scene);
 std::optional<Excitation> support(const Scene& scene);
 std::optional<Excitation> moment(const Scene& scene);
 
-/// The linear equation whose stability the scene asks for: a HillEquation for [pendulum], [mathieu], [hill]; the n-state
-/// system for [linear]. For a scene that validate() accepts; called for every cell of a chart, so the ranges are checked
-/// by the model only (which throws InvalidInput).
+/// The linear equation whose stability the scene asks for: a HillEquation for [pendulum], [mathieu], [hill];
+/// the n-state system for [linear]. For a scene that validate() accepts; called for every cell of a chart, so
+/// the ranges are checked by the model only (which throws InvalidInput).
 using LinearModel = std::variant<HillEquation, LinearPeriodicSystem>;
 LinearModel linear_model(const Scene& scene);
 
-/// One line that names the model in words, for provenance and --dry-run, e.g. "pendulum, hanging, harmonic support".
+/// One line that names the model in words, for provenance and --dry-run, e.g. "pendulum, hanging, harmonic
+/// support".
 std::string describe(const Scene& scene);
 
 }  // namespace strutt
