@@ -19,6 +19,7 @@ using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<
                                            boost::multiprecision::et_off>;
 
 constexpr int kMostSteps = 40;
+constexpr int kParts = 16;  // of the way between the edges
 
 /// A bound of a width from both sides.
 struct Enclosure {
@@ -58,7 +59,9 @@ class WidthSearch {
     const Ball<Real> difference = upper_ - lower_;
     enclosure.narrow(difference.lower(), difference.upper());
     block = at(hull());
-    if (block.finite()) use(block, enclosure);
+    if (!block.finite()) return;
+    use(block, enclosure);
+    if (!enclosure.sharp() && block.coupling.value.lower() > 0) use_both_ends(enclosure);
   }
 
  private:
@@ -83,6 +86,35 @@ class WidthSearch {
     const long double least = std::max(slope.lower(), 1.0L);
     constexpr long double up = Ball<Value>::kUp;
     enclosure.narrow(2 * beta.lower() / slope.upper() / up, 2 * beta.upper() / least * up);
+  }
+
+  /// width = (|beta(lower)| + |beta(upper)|)/(mean of h' between the edges), where beta does not vanish
+  /// there: beta changes in the hull by a share as large as the width, which counts where coefficients are
+  /// known to a rounding.
+  void use_both_ends(Enclosure& enclosure) const {
+    const ResonantBlock<Value> lower = at(lower_), upper = at(upper_);
+    if (!lower.finite() || !upper.finite()) return;
+    const auto &left = lower.coupling.value, &right = upper.coupling.value;
+    const auto [least, largest] = mean_slope();
+    constexpr long double up = Ball<Value>::kUp;
+    enclosure.narrow((left.lower() + right.lower()) / largest / up,
+                     (left.upper() + right.upper()) / least * up);
+  }
+
+  /// Bounds of the mean of h' between the edges, part by part.
+  std::pair<long double, long double> mean_slope() const {
+    constexpr long double up = Ball<Value>::kUp;
+    const Real way = upper_.middle - lower_.middle;
+    const long double half = hull().radius / kParts * up + std::max(lower_.radius, upper_.radius);
+    long double least = 0, largest = 0;
+    for (int j = 0; j < kParts; ++j) {
+      const Real middle = lower_.middle + way * (2 * j + 1) / (2 * kParts);
+      const auto block = at({middle, half + Ball<Real>::unit() * Ball<Real>{middle, 0}.size()});
+      if (!block.finite()) return {1.0L, std::numeric_limits<long double>::infinity()};
+      least += std::max(block.distance.slope.lower(), 1.0L);
+      largest += block.distance.slope.upper();
+    }
+    return {least / kParts / up, largest / kParts * up};
   }
 
   /// Real coupling: the edges are the zeros of h - beta and h + beta, in one order or the other.

@@ -46,6 +46,22 @@ TEST_CASE("widths of Mathieu's tongues have relative accuracy",
   CHECK(small == 12);
 }
 
+TEST_CASE("coefficients that are known to a rounding leave a width of any size sharp",
+          "[floquet][tongues][reference][extreme][N06][ratchet]") {
+  for (const auto& row : reference::read("width")) {
+    const int order = static_cast<int>(row.input("n"));
+    const double epsilon = row.input("epsilon");
+    for (const Harmonic& harmonic : {Harmonic{1, epsilon, 0.0}, Harmonic{1, 0.0, epsilon}}) {
+      const auto v = PeriodicFunction::fourier(0.0, {harmonic});
+      const TongueWidth width = tongue_width(v, tongue_edges(v, order, order).front(), 0x1p-52);
+      INFO("n = " << order << ", epsilon = " << row.text("epsilon") << ", sine " << harmonic.sine);
+      CHECK(relative_error(width, row.result("width")) <= width.relative_error);
+      check_within("N06 bound of a width of coefficients known to a rounding (relative)",
+                   width.relative_error, 1.5e-9);
+    }
+  }
+}
+
 TEST_CASE("a width of 1e-295 is as good as any", "[floquet][tongues][extreme][N06][ratchet]") {
   // 2 (epsilon/2)^n / ((n - 1)!)^2 but for a factor 1 + O(epsilon^2), DLMF 28.6.15
   const double epsilon = 1e-12;
