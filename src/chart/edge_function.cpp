@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/constants.hpp"
 #include "chart/surrogate_scope.hpp"
@@ -157,7 +157,7 @@ std::optional<double> EdgeFunction::bend(const Value& a, const Value& b, bool up
   if (!from || !to || a.point.mean != b.point.mean || !same_direction(a.point.variation, b.point.variation))
     return {};
   const double change = std::abs(*to - *from);
-  double gap = std::numeric_limits<double>::infinity();
+  double gap = kInfinity;
   for (const auto& [value, epsilon] : {std::pair{&a, *from}, std::pair{&b, *to}}) {
     for (const int next : {order_ - 2, order_ + 2}) {
       if (next < (upper ? 0 : 1)) continue;

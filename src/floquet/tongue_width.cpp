@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/resonant_block.hpp"
@@ -73,11 +74,15 @@ class WidthSearch {
     return ResonantElimination<Real, Value>(matrix_, order_, x, Direction::mean).run();
   }
 
+  /// All within `reach` of a middle that is itself rounded.
+  static Ball<Real> around(const Real& middle, long double reach) {
+    return {middle, reach * Ball<Real>::kUp + Ball<Real>::unit() * Ball<Real>{middle, 0}.size()};
+  }
+
   Ball<Real> hull() const {
     const Real middle = (lower_.middle + upper_.middle) / 2;
     const Ball<Real> half = Ball<Real>{upper_.middle, 0} - Ball<Real>{middle, 0};
-    return {middle, (half.upper() + std::max(lower_.radius, upper_.radius)) * Ball<Real>::kUp +
-                        Ball<Real>::unit() * Ball<Real>{middle, 0}.size()};
+    return around(middle, half.upper() + std::max(lower_.radius, upper_.radius));
   }
 
   /// width = 2 |beta|/|h'|, both anywhere in the hull.
@@ -109,7 +114,7 @@ class WidthSearch {
     long double least = 0, largest = 0;
     for (int j = 0; j < kParts; ++j) {
       const Real middle = lower_.middle + way * (2 * j + 1) / (2 * kParts);
-      const auto block = at({middle, half + Ball<Real>::unit() * Ball<Real>{middle, 0}.size()});
+      const auto block = at(around(middle, half));
       if (!block.finite()) return {1.0L, std::numeric_limits<long double>::infinity()};
       least += std::max(block.distance.slope.lower(), 1.0L);
       largest += block.distance.slope.upper();
