@@ -8,6 +8,7 @@
 
 #include "base/constants.hpp"
 #include "chart/surrogate_scope.hpp"
+#include "floquet/square_wave.hpp"
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/characteristic_values.hpp"
 #include "strutt/floquet/stability.hpp"
@@ -18,7 +19,8 @@ namespace {
 constexpr int kBlock = 32;  // orders computed together
 
 bool same_function(const PeriodicFunction& a, const PeriodicFunction& b) {
-  if (is_square(a) || is_square(b)) return is_square(a) && is_square(b) && a.deviation() == b.deviation();
+  if (is_square(a) || is_square(b))
+    return is_square(a) && is_square(b) && a.square_amplitude() == b.square_amplitude();
   return std::ranges::equal(a.harmonics(), b.harmonics(), [](const Harmonic& x, const Harmonic& y) {
     return x.order == y.order && x.cosine == y.cosine && x.sine == y.sine;
   });
@@ -30,8 +32,9 @@ std::optional<double> amplitude_of_one_harmonic(const PeriodicFunction& v) {
   return std::hypot(v.harmonics().front().cosine, v.harmonics().front().sine);
 }
 
-/// Whether both are multiples, not of opposite sign, of one cosine or one sine.
+/// Whether both are multiples, not of opposite sign, of one cosine, one sine or one square wave.
 bool same_direction(const PeriodicFunction& a, const PeriodicFunction& b) {
+  if (is_square(a) || is_square(b)) return a.square_amplitude() * b.square_amplitude() > 0.0;
   const auto first = [](const PeriodicFunction& v) {
     return v.is_constant() ? Harmonic{} : v.harmonics().front();
   };
@@ -62,7 +65,7 @@ double change_between(const LinePoint& a, const LinePoint& b) {
   double sum = std::abs(a.mean + a.damping_shift - (b.mean + b.damping_shift)) +
                std::abs(a.damping_shift - b.damping_shift);
   if (is_square(a.variation) || is_square(b.variation))  // where it jumps does not matter
-    return sum + std::abs(sum_of_amplitudes(a.variation) - sum_of_amplitudes(b.variation));
+    return sum + std::abs(a.variation.square_amplitude() - b.variation.square_amplitude());
   const auto left = a.variation.harmonics(), right = b.variation.harmonics();
   for (auto i = left.begin(), j = right.begin(); i != left.end() || j != right.end();) {
     const bool one = j == right.end() || (i != left.end() && i->order < j->order);
@@ -140,34 +143,44 @@ double EdgeFunction::Value::error(bool upper) const {
 const EdgeFunction::Value& EdgeFunction::at(double parameter) {
   if (const auto found = known_.find(parameter); found != known_.end()) return found->second;
   const LinePoint point = line_.at(parameter);
-  last_ = Value{point, edges_of(point)};
+  const bool same = last_ && same_function(last_->point.variation, point.variation);
+  last_ = Value{point, same ? last_->edges : edges_of(point, order_)};
   return known_.emplace(parameter, *last_).first->second;
 }
 
-TongueEdges EdgeFunction::edges_of(const LinePoint& point) {
-  if (last_ && same_function(last_->point.variation, point.variation)) return last_->edges;
+TongueEdges EdgeFunction::edges_of(const LinePoint& point, int order) {
   if (const auto epsilon = amplitude_of_one_harmonic(point.variation))
-    return line_.mathieu_tongue(*epsilon, order_);
-  return tongue_edges(point.variation, order_, order_).front();
+    return line_.mathieu_tongue(*epsilon, order);
+  return tongue_edges(point.variation, order, order).front();
+}
+
+double EdgeFunction::gap(const Value& value, bool upper) {
+  double result = kInfinity;
+  for (const int next : {order_ - 2, order_ + 2}) {
+    if (next < 0 || next > kLargestTongue) continue;
+    const Value other{value.point, edges_of(value.point, next)};
+    for (const bool edge : {false, true}) {
+      const bool exists = edge || next > 0, alike = edge == upper || is_square(value.point.variation);
+      if (!exists || !alike) continue;
+      result = std::min(result, std::abs(other.edge(edge).value - value.edge(upper).value) -
+                                    other.edge(edge).error - value.edge(upper).error);
+    }
+  }
+  return result;
 }
 
 std::optional<double> EdgeFunction::bend(const Value& a, const Value& b, bool upper) {
-  const auto from = amplitude_of_one_harmonic(a.point.variation),
-             to = amplitude_of_one_harmonic(b.point.variation);
-  if (!from || !to || a.point.mean != b.point.mean || !same_direction(a.point.variation, b.point.variation))
+  const auto &from = a.point.variation, &to = b.point.variation;
+  if (a.point.mean != b.point.mean || order_ + 2 > kLargestTongue || !same_direction(from, to)) return {};
+  if (is_square(from)) {
+    const auto left = square_wave_upper_is_even(from.deviation(), a.edges),
+               right = square_wave_upper_is_even(to.deviation(), b.edges);
+    if (!left || left != right) return {};
+  } else if (!amplitude_of_one_harmonic(from) || !amplitude_of_one_harmonic(to)) {
     return {};
-  const double change = std::abs(*to - *from);
-  double gap = kInfinity;
-  for (const auto& [value, epsilon] : {std::pair{&a, *from}, std::pair{&b, *to}}) {
-    for (const int next : {order_ - 2, order_ + 2}) {
-      if (next < (upper ? 0 : 1)) continue;
-      if (next > kLargestTongue) return {};
-      const Value other{{}, line_.mathieu_tongue(epsilon, next)};
-      gap = std::min(gap, std::abs(other.edge(upper).value - value->edge(upper).value) -
-                              other.edge(upper).error - value->edge(upper).error);
-    }
   }
-  const double least = gap - change;  // each of the two moves by half of it at most
+  const double change = change_between(a.point, b.point);
+  const double least = std::min(gap(a, upper), gap(b, upper)) - change;  // each moves by half of it at most
   if (!(least > 0.0)) return {};
   return 0.25 * change * change / least;
 }

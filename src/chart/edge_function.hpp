@@ -66,10 +66,10 @@ class EdgeFunction {
   const Value& at(double parameter);
   int order() const { return order_; }
 
-  /// How far F is, between two places, from the straight line in epsilon through its values there, at most.
-  /// Nothing unless the equation is Mathieu's with one mean and epsilon of one sign, or where edges of the
-  /// same symmetry are too close together: with V = epsilon cos, |edge''| <= 2/(distance to the next of its
-  /// symmetry).
+  /// How far F is, between two places, from the straight line in A through its values there, at most. Nothing
+  /// unless V = A s with one cosine or square wave s, A of one sign and one mean, or where edges of the same
+  /// symmetry are too close together, for |edge''| <= 2 max(s)^2/(distance to the next of its symmetry); nor
+  /// for square waves if the edges have changed places.
   std::optional<double> bend(const Value& a, const Value& b, bool upper);
 
   /// The mean of F' over [from, to], by Chebyshev interpolation in a window around it inside [least, most],
@@ -81,7 +81,9 @@ class EdgeFunction {
   std::optional<Slope> slope(bool upper, double from, double to, const TongueLine& within);
 
  private:
-  TongueEdges edges_of(const LinePoint& point);
+  TongueEdges edges_of(const LinePoint& point, int order);
+  /// From an edge to the next of its symmetry, at least.
+  double gap(const Value& value, bool upper);
 
   LineEquation& line_;
   int order_;

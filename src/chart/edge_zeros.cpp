@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/bracketed_zero.hpp"
 #include "strutt/base/error.hpp"
@@ -23,11 +24,30 @@ class ZeroSearch {
     if (!(from < to)) return;
     search(from, to);
     if (to < line.to) add(line.to, value(to) < 0.0);
+    merge();
   }
 
   std::vector<EdgeZero> zeros;
 
  private:
+  /// Of zeros between which F is nowhere more than its errors the outer two stay or, of an odd number, one.
+  void merge() {
+    const auto apart = [&](const EdgeZero& a, const EdgeZero& b) {
+      const double middle = std::midpoint(a.position, b.position);
+      return std::abs(value(middle)) > 2.0 * function_.at(middle).error(upper_);
+    };
+    std::vector<EdgeZero> merged;
+    for (auto first = zeros.begin(); first != zeros.end();) {
+      auto end = std::adjacent_find(first, zeros.end(), apart);
+      if (end != zeros.end()) ++end;
+      const auto count = end - first;
+      merged.push_back(count % 2 == 0 ? *first : first[count / 2]);
+      if (count % 2 == 0) merged.push_back(end[-1]);
+      first = end;
+    }
+    zeros = std::move(merged);
+  }
+
   double value(double p) { return function_.at(p).below(upper_); }
   void add(double position, bool rising) { zeros.push_back({upper_, rising, position}); }
 

@@ -155,6 +155,27 @@ std::vector<Ray> starts(const Scene& scene, const std::vector<std::string>& taki
   return result;
 }
 
+/// An edge of one parameter that is nearer than what the rays found: they miss what a line only touches, as
+/// at the tip of a tongue.
+void include(const ParameterMargin& row, const Scene& scene, JointMargin& result) {
+  const auto found = std::ranges::find(result.parameters, row.parameter);
+  if (found == result.parameters.end() || (!row.lower_edge && !row.upper_edge)) return;
+  const auto distance = [&](const std::optional<double>& edge) {
+    return edge ? std::abs(*edge - row.value) : HUGE_VAL;
+  };
+  const double edge =
+      distance(row.lower_edge) <= distance(row.upper_edge) ? *row.lower_edge : *row.upper_edge;
+  const double error = row.error * std::max(1.0, std::abs(edge)) / std::abs(row.value);
+  if (!(std::abs(row.relative_distance) + error < std::abs(result.distance) - result.error)) return;
+  result.distance = row.relative_distance;
+  result.error = error;
+  result.edge.clear();
+  for (const std::string& path : result.parameters) result.edge.push_back(parameter(scene, path));
+  result.edge[static_cast<std::size_t>(found - result.parameters.begin())] = edge;
+  result.tongue = row.tongue;
+  result.method = row.method;
+}
+
 }  // namespace
 
 JointMargin joint_margin(const Scene& scene, Verdict verdict, const std::vector<ParameterMargin>& alone,
@@ -190,6 +211,7 @@ JointMargin joint_margin(const Scene& scene, Verdict verdict, const std::vector<
     }
     if (behind) edges.push_back(behind);
   }
+  for (const ParameterMargin& row : alone) include(row, scene, result);
   if (!(result.error <= options.tolerance)) result.outcome = Outcome::tolerance_not_reached;
   return result;
 }

@@ -56,7 +56,8 @@ Range range_of(const Scene& scene, const std::string& path, double value, double
   return {valid_end(scene, path, value, low), valid_end(scene, path, value, high), positive};
 }
 
-/// The ends of the windows on one side of the value, outwards.
+/// The ends of the windows on one side of the value, outwards. 0 is one of them: there tongues have their
+/// tips.
 std::vector<double> window_ends(double value, double limit, bool positive) {
   std::vector<double> ends;
   const double size = value == 0.0 ? 1.0 : std::abs(value);
@@ -65,7 +66,9 @@ std::vector<double> window_ends(double value, double limit, bool positive) {
     const bool inwards = positive && std::abs(limit) < std::abs(value);
     const double end = inwards ? value / (1.0 + share) : value + step;
     const bool beyond = limit > value ? end >= limit : end <= limit;
-    ends.push_back(beyond ? limit : end);
+    const double last = ends.empty() ? value : ends.back(), next = beyond ? limit : end;
+    if (last * next < 0.0) ends.push_back(0.0);
+    ends.push_back(next);
     if (beyond) return ends;
   }
 }

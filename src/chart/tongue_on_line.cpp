@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "base/minimum.hpp"
 
 namespace strutt {
 namespace {
 
-constexpr double kNarrow = 1e-7;  // width in the mean below which its first power gives the growth
+constexpr double kNarrow = 1e-5;  // width in the mean below which its first power gives the growth
 
 /// Two zeros a rounding apart may come in the wrong order: of a rising pair the lower edge is met first, of a
 /// falling one the upper.
@@ -94,19 +95,29 @@ TongueEdge TongueOnLine::edge(const EdgeZero& zero, bool upper, int crossing) {
   const double steepness = slope ? std::abs(slope->value) : secant(zero);
   const auto& value = function_.at(p);
   const double off = std::abs(value.below(zero.upper)) + value.error(zero.upper);
-  const double distance = off == 0.0 ? 0.0 : off / steepness;
+  double distance = off == 0.0 ? 0.0 : off / steepness * (slope ? 1.0 + 1e-9 : 1.01);
+  if (distance > options_.tolerance * size) distance = std::min(distance, certain_distance_from(zero));
   TongueEdge result{
       .order = function_.order(),
       .upper = upper,
       .crossing = crossing,
       .position = p,
-      .error = (distance * (slope ? 1.0 + 1e-9 : 1.01) + kUnit * std::abs(p)) / size,
+      .error = (distance + kUnit * std::abs(p)) / size,
       .mechanism = function_.order() % 2 == 0 ? Mechanism::plus_one : Mechanism::minus_one,
       .method = value.point.variation.is_piecewise_constant() && !value.point.variation.is_constant()
                     ? Method::exact
                     : Method::fourier};
   if (!(result.error <= options_.tolerance)) result.outcome = Outcome::tolerance_not_reached;
   return result;
+}
+
+double TongueOnLine::certain_distance_from(const EdgeZero& zero) {
+  const auto certain = [&](double p) {
+    const auto& value = function_.at(p);
+    return std::abs(value.below(zero.upper)) > value.error(zero.upper);
+  };
+  return std::max(certain_distance(zero.position, line_.from, certain),
+                  certain_distance(zero.position, line_.to, certain));
 }
 
 double TongueOnLine::secant(const EdgeZero& zero) {
@@ -163,9 +174,10 @@ void TongueOnLine::add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& 
   const auto& value = function_.at(end.position);
   const double in_mean = value.edges.upper.value - value.edges.lower->value;
   if (in_mean < kNarrow) {
-    low.growth = narrow_tongue_growth(value.point.variation, value.edges,
-                                      tongue_width(value.point.variation, value.edges));
     low.growth_position = std::midpoint(low.position, high.position);
+    const auto& middle = function_.at(low.growth_position);
+    low.growth = narrow_tongue_growth(middle.point.variation, middle.edges,
+                                      tongue_width(middle.point.variation, middle.edges));
   } else {
     const auto [place, negative] =
         least_between([&](double x) { return -line_equation_.growth(x); }, low.position, high.position);

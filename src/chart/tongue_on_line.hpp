@@ -37,6 +37,8 @@ class TongueOnLine {
  private:
   bool inside(double position);
   double secant(const EdgeZero& zero);
+  /// How far from a zero F is, on both sides, certainly not zero, or the line ends.
+  double certain_distance_from(const EdgeZero& zero);
   void add_width(const Stretch& stretch, std::vector<TongueEdge>& edges, std::size_t first);
   void add_growth(const EdgeZero& end, TongueEdge& low, TongueEdge& high);
 

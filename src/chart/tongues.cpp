@@ -7,6 +7,7 @@
 
 #include "chart/edge_function.hpp"
 #include "chart/require_line.hpp"
+#include "chart/surrogate_scope.hpp"
 #include "chart/system_tongues.hpp"
 #include "chart/tongues_of_order.hpp"
 #include "strutt/base/error.hpp"
@@ -20,9 +21,9 @@ std::array<double, 3> samples_of(const TongueLine& line) {
   return {line.from, std::midpoint(line.from, line.to), line.to};
 }
 
-bool is_square(const Scene& scene, const TongueLine& line) {
-  const auto& w = LineEquation(scene, line).at(line.from).variation;
-  return w.harmonics().empty() && !w.is_constant();
+bool has_square_wave(const Scene& scene, const TongueLine& line) {
+  LineEquation equation(scene, line);
+  return std::ranges::any_of(samples_of(line), [&](double p) { return is_square(equation.at(p).variation); });
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ bool has_tongue_index(const Scene& scene, const TongueLine& line) {
 
 Method tongue_method(const Scene& scene, const TongueLine& line) {
   if (!has_tongue_index(scene, line)) return Method::propagator;
-  if (is_square(scene, line)) return Method::exact;
+  if (has_square_wave(scene, line)) return Method::exact;
   return is_damped(scene, line) ? Method::propagator : Method::fourier;
 }
 

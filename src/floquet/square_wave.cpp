@@ -77,6 +77,21 @@ class SquareWaveEdge {
   EdgeCondition condition_;
 };
 
+/// With a solution that is even about the middle of the first piece; n even: with the period of the wave.
+CharacteristicValue even_edge(double amplitude, int order) {
+  const int half = order / 2;
+  const EdgeCondition condition = order % 2 == 0 ? EdgeCondition{1, 0, 0.5 * pi, 0.5 * pi + half * pi}
+                                                 : EdgeCondition{0, 0, 0.5 * pi, (half + 1) * pi};
+  return SquareWaveEdge(amplitude, condition).value(order);
+}
+
+CharacteristicValue odd_edge(double amplitude, int order) {
+  const int half = order / 2;
+  const EdgeCondition condition =
+      order % 2 == 0 ? EdgeCondition{0, 1, 0.0, half * pi} : EdgeCondition{1, 1, 0.0, 0.5 * pi + half * pi};
+  return SquareWaveEdge(amplitude, condition).value(order);
+}
+
 /// What the closed form of an edge is made of, with s1, s2 > 0.
 struct Phases {
   double s1, s2, difference, kappa;
@@ -113,17 +128,17 @@ TongueWidth from_interval(double value, double error) {
 bool is_square_wave(const PeriodicFunction& v) { return v.is_piecewise_constant() && !v.is_constant(); }
 
 TongueEdges square_wave_tongue(double amplitude, int order) {
-  const int half = order / 2;
-  const bool even = order % 2 == 0;
-  const EdgeCondition from_cosine = even ? EdgeCondition{1, 0, 0.5 * pi, 0.5 * pi + half * pi}
-                                         : EdgeCondition{0, 0, 0.5 * pi, (half + 1) * pi};
-  const EdgeCondition from_sine =
-      even ? EdgeCondition{0, 1, 0.0, half * pi} : EdgeCondition{1, 1, 0.0, 0.5 * pi + half * pi};
-  const CharacteristicValue cosine = SquareWaveEdge(amplitude, from_cosine).value(order);
-  if (order == 0) return {order, std::nullopt, cosine};
-  const CharacteristicValue sine = SquareWaveEdge(amplitude, from_sine).value(order);
-  if (cosine.value < sine.value) return {order, cosine, sine};
-  return {order, sine, cosine};
+  const CharacteristicValue even = even_edge(amplitude, order);
+  if (order == 0) return {order, std::nullopt, even};
+  const CharacteristicValue odd = odd_edge(amplitude, order);
+  if (even.value < odd.value) return {order, even, odd};
+  return {order, odd, even};
+}
+
+std::optional<bool> square_wave_upper_is_even(double amplitude, const TongueEdges& edges) {
+  if (!edges.lower) return true;
+  if (edges.lower->value == edges.upper.value) return std::nullopt;
+  return even_edge(amplitude, edges.order).value == edges.upper.value;
 }
 
 TongueWidth square_wave_width(double amplitude, const TongueEdges& edges, double amplitude_error) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "strutt/floquet/tongue_width.hpp"
 
 namespace strutt {
@@ -16,6 +18,10 @@ bool is_square_wave(const PeriodicFunction& v);
 /// Both edges: indices by Pruefer's angle over half a period, which grows with the mean; the bound of the
 /// error by the sign of the factor on both sides, proved by the bounds of the closed form.
 TongueEdges square_wave_tongue(double amplitude, int order);
+
+/// Whether the solution on the upper edge is even about the middle of a piece, and that on the lower one odd;
+/// nothing where both edges coincide.
+std::optional<bool> square_wave_upper_is_even(double amplitude, const TongueEdges& edges);
 
 /// From the difference of sigma at both edges, arcsin(kappa sin difference) at the one plus the same at the
 /// other, without cancellation; where mean < A, wide tongues, by subtraction. `amplitude_error` is relative.

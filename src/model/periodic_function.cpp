@@ -116,6 +116,8 @@ double PeriodicFunction::deviation() const {
                                : amplitude_sum(harmonics_);
 }
 
+double PeriodicFunction::square_amplitude() const { return amplitude_; }
+
 double PeriodicFunction::bound() const { return std::abs(mean_) + deviation(); }
 
 double PeriodicFunction::lower_bound() const { return mean_ - deviation(); }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "strutt/base/error.hpp"
 #include "strutt/floquet/stability.hpp"
@@ -88,19 +89,56 @@ TEST_CASE("for weak excitation tongue 1 closes at epsilon and tongue n as its wi
   CHECK(rows[0].method == Method::propagator);
 }
 
-TEST_CASE("narrow and wide tongues agree where one method follows the other", "[chart][damping][ratchet]") {
-  // tongue 3 is epsilon^3/16 wide, so that it closes at epsilon^3/48: 1e-9 of its position at epsilon =
-  // 0.0033
+TEST_CASE("thin tongues close where their width says, to a relative error of 1e-8 on all widths",
+          "[chart][damping][ratchet]") {
+  // tongue 3 is epsilon^3/16 wide to lowest order, so that it closes at epsilon^3/48
   const auto third = [](double epsilon) {
     return closing_damping(mathieu_scene(epsilon), {"mathieu.delta", 2.0, 2.5}).front();
   };
-  const ClosingDamping narrow = third(0.0032), wide = third(0.0034);
-  REQUIRE(narrow.method == Method::fourier);
-  REQUIRE(wide.method == Method::propagator);
-  CHECK(std::abs(48.0 * narrow.damping / std::pow(0.0032, 3) - 1.0) <= narrow.error + 1e-5);
-  check_within("closing damping of tongue 3 against perturbation theory (relative)",
-               std::abs(48.0 * wide.damping / std::pow(0.0034, 3) - 1.0), 2e-6);
-  check_within("bound of a closing damping next to the narrow form (relative)", wide.error, 2.5e-5);
+  for (const double epsilon : {1e-3, 0.0034, 0.02, 0.05, 0.08, 0.1, 0.2}) {
+    CAPTURE(epsilon);
+    const ClosingDamping row = third(epsilon);
+    CHECK(row.method == (epsilon < 0.06 ? Method::fourier : Method::propagator));
+    CHECK(row.outcome == Outcome::converged);
+    check_within("bound of a closing damping of thin and wide tongues (relative)", row.error, 1e-8);
+    CHECK(std::abs(48.0 * row.damping / std::pow(epsilon, 3) - 1.0) <= row.error + 0.5 * epsilon * epsilon);
+  }
+}
+
+TEST_CASE("thin tongues close as the propagator says", "[chart][damping][ratchet]") {
+  struct Case {
+    double epsilon, from, to;
+  };
+  for (const auto& [epsilon, from, to] : {Case{0.05, 2.0, 2.5}, Case{0.2, 3.9, 4.1}, Case{0.4, 6.2, 6.4}}) {
+    CAPTURE(epsilon);
+    const ClosingDamping row = closing_damping(mathieu_scene(epsilon), {"mathieu.delta", from, to}).front();
+    REQUIRE(row.method == Method::fourier);
+    const double growth =
+        stability_at(mathieu_scene(epsilon), "mathieu.delta", row.position, "mathieu.damping", 0.0).growth;
+    const double closing = 2.0 * growth / (2.0 * std::numbers::pi);
+    check_close("closing damping by the width of a thin tongue against the propagator (relative)",
+                row.damping, closing, 2e-9);
+  }
+}
+
+TEST_CASE("where the width changes along the line, the bound knows", "[chart][damping]") {
+  const auto along_delta = [](double epsilon) {
+    return closing_damping(mathieu_scene(epsilon), {"mathieu.delta", 3.9, 4.1}).front();
+  };
+  Scene scene = mathieu_scene(0.3);
+  const double c = along_delta(0.3).damping;
+  scene.mathieu->delta = along_delta(0.3).position;
+  const auto rows = closing_damping(scene, {"mathieu.epsilon", 0.2, 0.4});
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].tongue == 4);
+  CHECK(std::abs(rows[0].damping / c - 1.0) < 1e-2);  // another point of the same tongue, next to it
+  CHECK(rows[0].outcome == Outcome::converged);
+  const auto at = [&](double factor) {
+    return stability_at(scene, "mathieu.epsilon", rows[0].position, "mathieu.damping",
+                        rows[0].damping * factor);
+  };
+  CHECK(at(1.0 - 1e-6).margin < 0.0);
+  CHECK(at(1.0 + 1e-6).margin > 0.0);
 }
 
 TEST_CASE("the damping of the scene does not count, and what has none is refused", "[chart][damping]") {

@@ -1,9 +1,13 @@
 #include "strutt/floquet/tongue_width.hpp"
 
+#include <boost/math/tools/minima.hpp>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "strutt/base/error.hpp"
+#include "strutt/floquet/stability.hpp"
 #include "support/ratchet.hpp"
 #include "support/reference.hpp"
 
@@ -137,6 +141,40 @@ TEST_CASE("tongues that no harmonic reaches are closed, proved",
   check_close("N08 width of tongue 2 of the second harmonic against first order (relative)",
               width_of(second, 2).value, 0.3, 0.0012);
   CHECK(width_of(PeriodicFunction::constant(0.0), 3).value == 0.0);
+}
+
+TEST_CASE("the growth by a narrow width is right to the square of its share of the way to the next tongue",
+          "[floquet][tongues][ratchet]") {
+  MonodromyEngine engine;
+  std::mt19937 random(11);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int rows = 0;
+  while (rows < 40) {
+    std::vector<Harmonic> harmonics;
+    const double size = std::exp(uniform(std::log(0.02), std::log(10.0)));
+    for (int k = 1; k <= 1 + rows % 3; ++k)
+      harmonics.push_back({k, size * uniform(-1.0, 1.0) / k, size * uniform(-1.0, 1.0) / k});
+    const auto v = PeriodicFunction::fourier(0.0, harmonics);
+    const int order = 1 + rows % 8;
+    const auto edges = tongue_edges(v, order - 1, order + 1);
+    const TongueWidth width = tongue_width(v, edges[1]);
+    const double distance =
+        std::min(edges[1].lower->value - edges[0].upper.value, edges[2].lower->value - edges[1].upper.value);
+    const double share = width.value / distance;
+    if (share < 2e-3 || share > 0.1) continue;
+    const auto growth = [&](double mean) {
+      const auto equation = hill_equation(2.0 * std::numbers::pi, v.plus(mean));
+      return analyse(engine, equation, {.tolerance = 1e-13}).growth;
+    };
+    const auto [place, negative] = boost::math::tools::brent_find_minima(
+        [&](double mean) { return -growth(mean); }, edges[1].lower->value, edges[1].upper.value, 30);
+    const double by_width = narrow_tongue_growth(v, edges[1], width);
+    check_within("growth by a narrow width against multipliers (in squares of width over distance)",
+                 std::abs(-by_width / negative - 1.0) / (share * share), 16.0);
+    ++rows;
+  }
 }
 
 TEST_CASE("tongue 0 has no width", "[floquet][tongues]") {

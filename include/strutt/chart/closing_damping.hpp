@@ -21,12 +21,13 @@ struct ClosingDamping {
 /// For each tongue n >= 1 both edges of which lie on the line: the largest c at which some point of it is
 /// marginal, whatever damping the scene has. With c the multipliers of the undamped Y'' + (W - (c/Omega)^2/4)
 /// Y = 0 are divided by exp(cT/2); the point is marginal where growth = cT/2. That root is found at each
-/// point, and its largest value by Brent's method; beside a maximum its error is that of the growth. Tongues
-/// narrower than 1e-9 of their position:
+/// point, and its largest value by Brent's method; beside a maximum its error is that of the growth. Where it
+/// is smaller, the error is that of
 ///   c = 2 growth/T
-/// with the growth of the undamped tongue in its middle (narrow_tongue_growth), right to about the width of
-/// the tongue. No damping closes tongue 0. `options` as of tongues(), whose `count` counts tongue 0. Throws
-/// as tongues(), and for a line along the damping.
+/// with the growth of the undamped tongue in its middle (narrow_tongue_growth): for tongues narrower than some
+/// 1e-5 of the distance to the next one. The worst error, between both, is about 1e-9; `outcome` is converged
+/// up to 1e-8 or the tolerance. No damping closes tongue 0. `options` as of tongues(), whose `count` counts
+/// tongue 0. Throws as tongues(), and for a line along the damping.
 std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine& line,
                                             const TongueOptions& options = {});
 

@@ -42,7 +42,8 @@ TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges&
 /// The largest growth inside a narrow tongue, ln of the spectral radius per period: in its middle, to lowest
 /// order in the width,
 ///   2 pi |beta|/|dh/dnu| = pi width |h'|/|dh/dnu|,
-/// nu the exponent. Its relative error is about that of the width plus width/n. 0 for a closed tongue.
+/// nu the exponent. Its relative error is that of the width plus about the square of the width over the
+/// distance to the next tongue. 0 for a closed tongue.
 double narrow_tongue_growth(const PeriodicFunction& coefficient, const TongueEdges& edges,
                             const TongueWidth& width);
 

@@ -43,10 +43,11 @@ class PeriodicFunction {
   PeriodicFunction derivative() const;  ///< d/dtheta; of s_0 it throws InvalidInput (a sum of impulses)
 
   double mean() const { return mean_; }
-  double deviation() const;    ///< an upper bound of |f - mean|, attained by a single wave
-  double bound() const;        ///< an upper bound of |f|
-  double lower_bound() const;  ///< a lower bound of f
-  bool is_constant() const;    ///< no term besides the mean
+  double deviation() const;         ///< an upper bound of |f - mean|, attained by a single wave
+  double square_amplitude() const;  ///< the amplitude, with its sign, of the square form; 0 of the other
+  double bound() const;             ///< an upper bound of |f|
+  double lower_bound() const;       ///< a lower bound of f
+  bool is_constant() const;         ///< no term besides the mean
   bool is_piecewise_constant() const;
   int highest_order() const;  ///< largest harmonic order, 0 if constant, 1 for a square wave
   std::span<const Harmonic> harmonics() const { return harmonics_; }
