@@ -31,4 +31,9 @@ void plain_cells(CellRow& row) {
   for_this_process(sse2::compute_any, avx2::compute_any, avx512::compute_any)(row);
 }
 
+void trace_sides(const double* trace, std::size_t count, std::size_t block, double least_gap,
+                 TraceSide* result) {
+  for_this_process(sse2::sides, avx2::sides, avx512::sides)(trace, count, block, least_gap, result);
+}
+
 }  // namespace strutt

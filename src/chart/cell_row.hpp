@@ -37,6 +37,10 @@ struct Turns {
 struct CellRow {
   std::size_t count = 0;
   std::array<const double*, 4> factors{};  ///< u1, kappa u2, u1'/kappa, u2' with the box's kappa and exponent
+  /// Instead of the factors: D, of cells between which it does not come to +-2, so that `turns` is the same
+  /// in all of them; its error, as Monodromy::error, and a bound of what D itself may be off.
+  const double* discriminant = nullptr;
+  double discriminant_error = 0.0, discriminant_bound = 0.0;
   std::array<double, 4> factor_error{};
   long exponent = 0;
   double box_kappa = 1.0;
@@ -71,5 +75,12 @@ void cells_in_log_form(CellRow& row);
 /// The same in vector code, for |D| and h up to kMostPlainLog. Inputs must be readable up to the next
 /// multiple of 8 cells. Products near the edge of their bounds count as unresolved.
 void plain_cells(CellRow& row);
+
+/// Where D is in some cells: near 2 or -2 in one of them, or in none and on one side in all.
+enum class TraceSide { near, between, above, below };
+
+/// Of each block of `block` cells, a multiple of 8; the last may be shorter. Near: within `least_gap`.
+void trace_sides(const double* trace, std::size_t count, std::size_t block, double least_gap,
+                 TraceSide* result);
 
 }  // namespace strutt

@@ -16,7 +16,8 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kStripCells = 65'536;
+constexpr std::size_t kStripCells = 65'536;           // some seconds of work for the slowest method
+constexpr std::size_t kSurrogateStripCells = 1 << 17;
 
 constexpr double kLeastSeconds = 0.01;  // point by point, of charts for which a surrogate is considered
 constexpr double kLeastGain = 2.0;      // more than the forecast can be wrong by
@@ -56,6 +57,12 @@ std::string refusal_by_cost(const SurrogateForecast& forecast, double with_surro
 }
 
 /// Method, forecasts and time of one thread.
+void set_strips(ChartPlan& plan, const ChartRequest& request, std::size_t cells) {
+  plan.rows_per_strip = std::clamp<std::size_t>(cells / request.x.points, 1, request.y.points);
+  plan.working_bytes = 8.0 * static_cast<double>(plan.rows_per_strip * request.x.points) *
+                       static_cast<double>(request.layers.size() + 4);
+}
+
 void choose_method(ChartPlan& plan, const Scene& scene, const ChartRequest& request) {
   const bool asked = request.method == Method::surrogate, open = request.method == Method::automatic;
   const auto engine = asked ? Method::automatic : request.method;
@@ -77,6 +84,7 @@ void choose_method(ChartPlan& plan, const Scene& scene, const ChartRequest& requ
   }
   plan.method = Method::surrogate;
   plan.expected_seconds = seconds;
+  set_strips(plan, request, kSurrogateStripCells);
   plan.working_bytes += plan.surrogate->bytes;
 }
 
@@ -103,9 +111,8 @@ ChartPlan plan_chart(const Scene& scene, const ChartRequest& request) {
     throw MemoryBudgetExceeded("a chart of " + to_text(cells) + " cells is beyond any machine");
   const std::size_t nx = request.x.points, ny = request.y.points, layers = request.layers.size();
   plan.cells = nx * ny;
-  plan.rows_per_strip = std::clamp<std::size_t>(kStripCells / nx, 1, ny);
   plan.result_bytes = 8.0 * (cells * static_cast<double>(layers) + static_cast<double>(nx + ny));
-  plan.working_bytes = 8.0 * static_cast<double>(plan.rows_per_strip * nx) * static_cast<double>(layers + 4);
+  set_strips(plan, request, kStripCells);
   plan.budget_bytes = memory_budget();
   plan.threads = thread_count({.threads = request.threads});
   check_memory(plan, request);

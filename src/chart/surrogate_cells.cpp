@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "chart/cell_engine.hpp"
 #include "chart/surrogate_box.hpp"
-#include "chart/trace_boxes.hpp"
 
 namespace strutt {
 namespace {
@@ -52,7 +52,10 @@ SurrogateCells::SurrogateCells(const Scene& scene, const ChartRequest& request)
   } else {
     prepare_factors(scene);
   }
-  grid_ = SurrogateGrid(boxes_on_grid(), request.x, request.y);
+  const auto grid_of = [&](const auto& boxes) { return SurrogateGrid(boxes, request.x, request.y); };
+  if (surrogate_.kind() != SurrogateKind::period)
+    traces_ = grid_of(trace_boxes(surrogate_.boxes(), request.tolerance, trace_scale()));
+  grid_ = wants_trace_only(request) ? std::exchange(traces_, {}) : grid_of(surrogate_.boxes());
 }
 
 void SurrogateCells::prepare_factors(const Scene& scene) {
@@ -63,18 +66,16 @@ void SurrogateCells::prepare_factors(const Scene& scene) {
   kappa_square_ = table_of(*workers_[0].model, request_, &PointEquation::kappa_square);
 }
 
-/// Those of the surrogate, or with the discriminant alone.
-std::vector<SurrogateBox> SurrogateCells::boxes_on_grid() const {
-  if (surrogate_.kind() == SurrogateKind::period || !wants_trace_only(request_)) return surrogate_.boxes();
-  return trace_boxes(surrogate_.boxes(), request_.tolerance,
-                     {.least_kappa = canonical_kappa(kappa_square_.smallest()),
-                      .largest_kappa = canonical_kappa(kappa_square_.largest()),
-                      .damped = half_damping_.largest() > 0.0,
-                      .shifted = *surrogate_.even_phase() != 0.0});
+TraceScale SurrogateCells::trace_scale() const {
+  return {.least_kappa = canonical_kappa(kappa_square_.smallest()),
+          .largest_kappa = canonical_kappa(kappa_square_.largest()),
+          .damped = half_damping_.largest() > 0.0,
+          .shifted = *surrogate_.even_phase() != 0.0};
 }
 
 bool SurrogateCells::fill(ChartStrip& strip, ChartSummary& summary, std::vector<std::size_t>& rest) {
   const auto pieces = grid_.pieces(strip.first_row, strip.rows);
+  traces_.pieces(strip.first_row, strip.rows);  // the same
   std::vector<Count> counts(pieces.size());
   const bool complete = parallel_for(pieces.size(), parallel_, [&](std::size_t k, int slot) {
     counts[k] = fill_piece(pieces[k], strip, workers_[static_cast<std::size_t>(slot)]);
@@ -111,7 +112,7 @@ std::vector<std::size_t> SurrogateCells::rest_of(const ChartStrip& strip,
 SurrogateCells::Count& SurrogateCells::Count::operator+=(const Count& other) {
   cells += other.cells;
   largest_error = std::max(largest_error, other.largest_error);
-  open.insert(open.end(), other.open.begin(), other.open.end());
+  if (!other.open.empty()) open.insert(open.end(), other.open.begin(), other.open.end());
   return *this;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/constants.hpp"
 #include "chart/surrogate_cells.hpp"
 #include "floquet/half_period_factors.hpp"
 #include "floquet/turned_angle.hpp"
@@ -14,9 +15,10 @@ namespace {
 
 using std::numbers::pi;
 
-// As many cells at a time as stay in the nearest cache: two rows of four factors are the rows of a product
-// that keeps its sums in registers.
-constexpr std::size_t kTileRows = 2, kTileColumns = GridPiece::kTileColumns;
+constexpr std::size_t kTraceRows =
+    8;  // of D at a time: the rows of a product that keeps its sums in registers
+constexpr std::size_t kFactorColumns = GridPiece::kTileColumns;  // of factors: as many as stay in the cache
+constexpr double kLeastGap = 0.01;  // from D to 2, beyond which D tells as much as the factors
 
 /// Whether D stays in the range of plain_cells.
 bool is_plain(const SurrogateBox& box) {
@@ -73,54 +75,104 @@ SurrogateCells::Count SurrogateCells::fill_factors(const GridPiece& piece, Chart
 std::optional<SurrogateCells::Count> SurrogateCells::fill_rows(const GridPiece& piece, ChartStrip& strip,
                                                                Worker& worker, bool along_rows) {
   const bool plain = is_plain(grid_.box(piece)) && half_damping_.largest() < kMostPlainLog;
-  worker.factors.resize(kTileRows * 4 * kTileColumns);
-  CellRow& cells = worker.cells;
+  const auto bound = plain && !along_rows ? bound_of_trace(piece) : std::nullopt;
+  worker.factors.resize(4 * kFactorColumns);
+  worker.traces.resize(kTraceRows * GridPiece::kMostColumns);
   Edges edges;
-  std::array<Turns, kTileRows> turns;
+  PieceWork work{piece, strip, worker, edges, along_rows, plain, bound};
   Count count;
-  for (std::size_t first = 0; first < piece.rows; first += kTileRows) {
-    for (std::size_t column = 0; column < piece.columns; column += kTileColumns) {
-      const GridPiece tile{piece.box, piece.first_row + first, std::min(kTileRows, piece.rows - first),
-                           piece.first_column + column, std::min(kTileColumns, piece.columns - column)};
-      grid_.evaluate(tile, worker.factors.data(), kTileColumns);
-      for (std::size_t r = 0; r < tile.rows; ++r) {
-        prepare(tile, r, worker);
-        if (with_winding_ && along_rows) count_turns(tile, r, worker);
-        if (with_winding_ && !along_rows) {
-          cells.turns = turns[r];
-          if (column == 0) start_row(tile, r, piece, edges, worker);
-        }
-        count += fill_cells(tile, r, strip, worker, plain);
-        turns[r] = cells.turns;
-        if (with_winding_ && !along_rows && column + tile.columns == piece.columns)
-          end_row(tile, r, piece, edges, worker);
-        if (!edges.agree) return std::nullopt;
-      }
+  for (std::size_t r = 0; r < piece.rows; ++r) {
+    const GridPiece row{piece.box, piece.first_row + r, 1, piece.first_column, piece.columns};
+    if (bound && r % kTraceRows == 0) {
+      const std::size_t rows = std::min(kTraceRows, piece.rows - r);
+      traces_.evaluate({row.box, row.first_row, rows, row.first_column, row.columns}, worker.traces.data(),
+                       GridPiece::kMostColumns);
+    }
+    count += fill_row(row, &worker.traces[r % kTraceRows * GridPiece::kMostColumns], work);
+    if (!edges.agree) return std::nullopt;
+  }
+  return count;
+}
+
+std::optional<double> SurrogateCells::bound_of_trace(const GridPiece& piece) const {
+  if (traces_.empty() || traces_.box(piece).coefficients.size() != 1) return std::nullopt;
+  return trace_bound(traces_.box(piece).error[0], grid_.box(piece), trace_scale());
+}
+
+/// In runs.
+SurrogateCells::Count SurrogateCells::fill_row(const GridPiece& row, const double* trace,
+                                               PieceWork& work) const {
+  find_runs(row, trace, work);
+  Count count;
+  for (const CellRun& run : work.worker.runs.runs()) {
+    const bool near = run.side == TraceSide::near;
+    const std::size_t most = near ? kFactorColumns : GridPiece::kMostColumns;
+    for (std::size_t c = run.first; c < run.last; c += most) {
+      const GridPiece cells{row.box, row.first_row, 1, row.first_column + c, std::min(most, run.last - c)};
+      count += near ? fill_by_factors(cells, work) : fill_by_trace(cells, trace + c, work);
     }
   }
   return count;
 }
 
-/// What the kernel wants to know of row r of a tile.
-void SurrogateCells::prepare(const GridPiece& tile, std::size_t r, Worker& worker) const {
-  const SurrogateBox& box = grid_.box(tile);
+void SurrogateCells::find_runs(const GridPiece& row, const double* trace, PieceWork& work) const {
+  TraceRuns& runs = work.worker.runs;
+  if (!work.trace_bound) {
+    runs.set_near(row.columns);
+    return;
+  }
+  runs.begin(trace, row.columns);
+  for (std::size_t column = 0; column < row.columns; column += TraceRuns::kMostAdded) {
+    const GridPiece part{row.box, row.first_row, 1, row.first_column + column,
+                         std::min(TraceRuns::kMostAdded, row.columns - column)};
+    runs.add(part.columns, std::max(kLeastGap, traces_.bend(part, 0) + 2.0 * *work.trace_bound));
+  }
+}
+
+SurrogateCells::Count SurrogateCells::fill_by_factors(const GridPiece& cells, PieceWork& work) const {
+  auto& [piece, strip, worker, edges, along_rows, plain, bound] = work;
+  grid_.evaluate(cells, worker.factors.data(), kFactorColumns);
+  prepare(cells, worker);
+  const bool followed = with_winding_ && !along_rows;
+  if (with_winding_ && along_rows) count_turns(cells, worker);
+  if (followed && cells.first_column == piece.first_column) start_row(cells, piece, edges, worker);
+  const Count count = fill_cells(cells, strip, worker, plain);
+  if (followed && cells.first_column + cells.columns == piece.first_column + piece.columns)
+    end_row(cells, piece, edges, worker);
+  return count;
+}
+
+SurrogateCells::Count SurrogateCells::fill_by_trace(const GridPiece& cells, const double* trace,
+                                                    PieceWork& work) const {
+  CellRow& row = work.worker.cells;
+  prepare(cells, work.worker);
+  row.discriminant = trace;
+  row.discriminant_error = traces_.box(cells).error[0] + 8.0 * kUnit;
+  row.discriminant_bound = *work.trace_bound;
+  return fill_cells(cells, work.strip, work.worker, true);
+}
+
+/// What the kernel wants to know of some cells of a row.
+void SurrogateCells::prepare(const GridPiece& piece, Worker& worker) const {
+  const SurrogateBox& box = grid_.box(piece);
   CellRow& cells = worker.cells;
-  cells.count = tile.columns;
-  for (std::size_t f = 0; f < 4; ++f) cells.factors[f] = worker.factors.data() + (4 * r + f) * kTileColumns;
+  cells.count = piece.columns;
+  cells.discriminant = nullptr;
+  for (std::size_t f = 0; f < 4; ++f) cells.factors[f] = worker.factors.data() + f * kFactorColumns;
   std::copy_n(box.error.begin(), 4, cells.factor_error.begin());
   cells.exponent = box.exponent;
   cells.box_kappa = box.kappa;
   cells.shifted = *surrogate_.even_phase() != 0.0;
   cells.damped = half_damping_.largest() > 0.0;
   cells.quarter_turns = nullptr;
-  worker.columns.set(half_damping_, kappa_square_, tile.first_row + r, tile.first_column, tile.columns);
-  worker.columns.give(cells, tile.first_column);
+  worker.columns.set(half_damping_, kappa_square_, piece.first_row, piece.first_column, piece.columns);
+  worker.columns.give(cells, piece.first_column);
 }
 
-/// Row r of a tile: straight into the strip. Cells that do not hold are written again, point by point.
-SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::size_t r, ChartStrip& strip,
-                                                 Worker& worker, bool plain) {
-  const std::size_t offset = tile.offset(r, strip);
+/// Straight into the strip. Cells that do not hold are written again, point by point.
+SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& piece, ChartStrip& strip, Worker& worker,
+                                                 bool plain) const {
+  const std::size_t offset = piece.offset(0, strip);
   CellRow& cells = worker.cells;
   leave_out_results(cells);
   for (std::size_t l = 0; l < request_.layers.size(); ++l) {
@@ -128,66 +180,77 @@ SurrogateCells::Count SurrogateCells::fill_cells(const GridPiece& tile, std::siz
     if (double** const place = place_of(cells, request_.layers[l])) {
       *place = values;
     } else {
-      std::fill_n(values, tile.columns, static_cast<double>(Outcome::converged));
+      std::fill_n(values, piece.columns, static_cast<double>(Outcome::converged));
     }
   }
   compute(cells, plain);
   if (cells.largest_error <= request_.tolerance && (!with_verdict_ || cells.all_resolved))
-    return {tile.columns, cells.largest_error};
-  worker.error.resize(kTileColumns);
+    return {piece.columns, cells.largest_error};
+  return single_cells(piece, strip, worker, plain);
+}
+
+/// With the error of each.
+SurrogateCells::Count SurrogateCells::single_cells(const GridPiece& piece, ChartStrip& strip, Worker& worker,
+                                                   bool plain) const {
+  CellRow& cells = worker.cells;
   double* const verdict = cells.verdict;
+  if (cells.discriminant != nullptr) {
+    grid_.evaluate(piece, worker.factors.data(), kFactorColumns);
+    cells.discriminant = nullptr;
+  }
+  worker.error.resize(kFactorColumns);
   leave_out_results(cells);
   cells.error = worker.error.data();
   cells.verdict = verdict;
   compute(cells, plain);
   Count count;
-  for (std::size_t c = 0; c < tile.columns; ++c) {
+  for (std::size_t c = 0; c < piece.columns; ++c) {
     const bool open = verdict != nullptr && verdict[c] == static_cast<double>(Verdict::unresolved);
     if (worker.error[c] <= request_.tolerance && !open) {
       count += {1, worker.error[c]};
     } else {
-      count.open.push_back(offset + c);
+      count.open.push_back(piece.offset(0, strip) + c);
     }
   }
   return count;
 }
 
-/// The turns at cell c of row r of a tile, counted.
-Turns SurrogateCells::turns_at(const GridPiece& tile, std::size_t r, std::size_t c, Worker& worker) const {
+/// The turns at cell c of some cells of a row, counted.
+Turns SurrogateCells::turns_at(const GridPiece& cells, std::size_t c, Worker& worker) const {
   const auto point =
-      worker.model->at(request_.x.value(tile.first_column + c), request_.y.value(tile.first_row + r));
+      worker.model->at(request_.x.value(cells.first_column + c), request_.y.value(cells.first_row));
   const double u2 = worker.cells.factors[1][c], du2 = worker.cells.factors[3][c];
   Turns turns{std::numeric_limits<double>::quiet_NaN(), sign_quadrant(u2, du2), 0};
   if (!point) return turns;
   turns.quadrant =
-      std::floor(lifted_angle(point->equation.coefficient, pi, u2, du2, grid_.box(tile).kappa) / (0.5 * pi));
+      std::floor(lifted_angle(point->equation.coefficient, pi, u2, du2, grid_.box(cells).kappa) / (0.5 * pi));
   return turns;
 }
 
 /// Turns at the first cell of a row: those of the row before, followed. They must be right in the last row.
-void SurrogateCells::start_row(const GridPiece& tile, std::size_t r, const GridPiece& piece, Edges& edges,
+void SurrogateCells::start_row(const GridPiece& cells, const GridPiece& piece, Edges& edges,
                                Worker& worker) const {
-  const std::size_t row = tile.first_row + r - piece.first_row;
+  const std::size_t row = cells.first_row - piece.first_row;
   if (row == 0) {
-    edges.left = turns_at(tile, r, 0, worker);
+    edges.left = turns_at(cells, 0, worker);
   } else {
     edges.left.follow(worker.cells.factors[1][0], worker.cells.factors[3][0]);
     if (row + 1 == piece.rows)
-      edges.agree = edges.agree && edges.left.quadrant == turns_at(tile, r, 0, worker).quadrant;
+      edges.agree = edges.agree && edges.left.quadrant == turns_at(cells, 0, worker).quadrant;
   }
   worker.cells.turns = {edges.left.quadrant, edges.left.pattern, 0};
 }
 
 /// Turns at the last cell of a row: those that come along the row and down the column must be the same.
-void SurrogateCells::end_row(const GridPiece& tile, std::size_t r, const GridPiece& piece, Edges& edges,
+void SurrogateCells::end_row(const GridPiece& cells, const GridPiece& piece, Edges& edges,
                              Worker& worker) const {
-  const std::size_t row = tile.first_row + r - piece.first_row, c = tile.columns - 1;
+  const std::size_t row = cells.first_row - piece.first_row, c = cells.columns - 1;
   if (row == 0) {
-    edges.right = turns_at(tile, r, c, worker);
+    edges.right = turns_at(cells, c, worker);
   } else {
     edges.right.follow(worker.cells.factors[1][c], worker.cells.factors[3][c]);
     if (row + 1 == piece.rows)
-      edges.agree = edges.agree && edges.right.quadrant == turns_at(tile, r, c, worker).quadrant;
+      edges.agree = edges.agree && edges.right.quadrant == turns_at(cells, c, worker).quadrant;
   }
   const Turns& along = worker.cells.turns;
   edges.agree = edges.agree && std::max({edges.left.doubts, edges.right.doubts, along.doubts}) <= 1 &&
@@ -196,23 +259,23 @@ void SurrogateCells::end_row(const GridPiece& tile, std::size_t r, const GridPie
 
 /// At both ends, and on both sides of a step that leaves a choice. If what was followed up to one of these is
 /// not what is counted there, at every cell.
-void SurrogateCells::count_turns(const GridPiece& tile, std::size_t r, Worker& worker) const {
-  worker.quarter_turns.resize(kTileColumns);
+void SurrogateCells::count_turns(const GridPiece& cells, Worker& worker) const {
+  worker.quarter_turns.resize(kFactorColumns);
   double* const result = worker.quarter_turns.data();
-  const std::size_t last = tile.columns - 1;
-  Turns now = turns_at(tile, r, 0, worker);
+  const std::size_t last = cells.columns - 1;
+  Turns now = turns_at(cells, 0, worker);
   bool agree = true;
   for (std::size_t c = 0; c <= last; ++c) {
     const Turns before = now;
     if (c > 0) now.follow(worker.cells.factors[1][c], worker.cells.factors[3][c]);
     if (now.doubts > 0) {
-      agree = agree && before.quadrant == turns_at(tile, r, c - 1, worker).quadrant;
-      now = turns_at(tile, r, c, worker);
+      agree = agree && before.quadrant == turns_at(cells, c - 1, worker).quadrant;
+      now = turns_at(cells, c, worker);
     }
     result[c] = now.quadrant + 0.5;
   }
-  if (!agree || now.quadrant != turns_at(tile, r, last, worker).quadrant) {
-    for (std::size_t c = 0; c <= last; ++c) result[c] = turns_at(tile, r, c, worker).quadrant + 0.5;
+  if (!agree || now.quadrant != turns_at(cells, last, worker).quadrant) {
+    for (std::size_t c = 0; c <= last; ++c) result[c] = turns_at(cells, c, worker).quadrant + 0.5;
   }
   worker.cells.quarter_turns = result;
 }

@@ -1,6 +1,7 @@
 #include "chart/surrogate_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "chart/chebyshev.hpp"
 #include "chart/tensor_kernel.hpp"
@@ -22,15 +23,18 @@ std::vector<double> coordinates_of(const Axis& axis, double low, double high) {
   return result;
 }
 
-/// weights[k] = sum_l c(k, l) T_l, the function along a row as a sum of T_k. Small terms first.
-void weigh(const Eigen::MatrixXd& c, const std::vector<double>& polynomials, double* weights) {
-  std::fill_n(weights, c.rows(), 0.0);
-  for (Eigen::Index l = c.cols(); l-- > 0;) {
-    const double* const column = c.data() + l * c.rows();
-    const double factor = polynomials[static_cast<std::size_t>(l)];
-    for (Eigen::Index k = 0; k < c.rows(); ++k) weights[k] += column[k] * factor;
+/// |f - chord| <= step^2/8 max|f''|, |T_k''| <= k^2 (k^2 - 1)/3; of the sums weights(k, r) T_k.
+std::vector<double> bends_of(const std::vector<double>& weights, std::size_t rows, double step) {
+  std::vector<double> result(rows, 0.0);
+  for (std::size_t k = 2; k < weights.size() / rows; ++k) {
+    const auto square = static_cast<double>(k * k), factor = square * (square - 1.0) / 24.0 * step * step;
+    for (std::size_t r = 0; r < rows; ++r) result[r] += std::abs(weights[k * rows + r]) * factor;
   }
+  return result;
 }
+
+/// Weights of one term; not a power of two, whose multiples share few places in the cache.
+std::size_t weights_of(std::size_t rows, std::size_t functions) { return rows * functions + 8; }
 
 constexpr std::size_t kPanelColumns = 4 * GridPiece::kTileColumns;
 
@@ -78,43 +82,59 @@ SurrogateGrid::Range SurrogateGrid::indices_in(const std::vector<double>& coordi
 void SurrogateGrid::cut_into_panels(Box& box) const {
   const std::vector<double> error = box.box.error;
   for (std::size_t c = box.columns.first; c < box.columns.last; c += kPanelColumns) {
-    box.panels.push_back(panel(box.box, {c, std::min(c + kPanelColumns, box.columns.last)}));
+    box.panels.push_back(panel(box, {c, std::min(c + kPanelColumns, box.columns.last)}));
     for (std::size_t f = 0; f < error.size(); ++f)
       box.box.error[f] = std::max(box.box.error[f], error[f] + box.panels.back().functions.error[f]);
   }
 }
 
-SurrogateGrid::Panel SurrogateGrid::panel(const SurrogateBox& box, const Range& columns) const {
+/// The polynomials reach back to the column before, see bend.
+SurrogateGrid::Panel SurrogateGrid::panel(const Box& box, const Range& columns) const {
+  const bool is_first = columns.first == box.columns.first;
   std::vector<double> t;
-  for (std::size_t i = columns.first; i < columns.last; ++i) t.push_back(local(box, 0, x_[i]));
+  for (std::size_t i = columns.first - (is_first ? 0 : 1); i < columns.last; ++i)
+    t.push_back(local(box.box, 0, x_[i]));
   const auto [low, high] = std::minmax(t.front(), t.back());
-  Panel result{panel_of(box, low, high), columns, {}, {}};
+  Panel result{panel_of(box.box, low, high), columns, {}, {}, {}, 0.0};
   const double middle = 0.5 * (result.functions.low + result.functions.high),
                half = 0.5 * (result.functions.high - result.functions.low);
   for (double& place : t) place = (place - middle) / half;
+  for (std::size_t i = 1; i < t.size(); ++i) result.step = std::max(result.step, std::abs(t[i] - t[i - 1]));
+  if (!is_first) t.erase(t.begin());
   Eigen::MatrixXd values;
   chebyshev::polynomials(t, static_cast<int>(result.terms()) - 1, values);
   result.basis.assign(values.data(), values.data() + values.size());
   return result;
 }
 
+/// weights(k, r) = sum_l c(k, l) T_l(t_r): the function along row r as a sum of T_k.
 void SurrogateGrid::contract(Box& box, const Range& rows) const {
-  const std::size_t functions = box.box.coefficients.size(), stride = rows.size() * functions;
-  std::vector<double> t, polynomials(static_cast<std::size_t>(box.box.coefficients[0].cols())), sums;
+  const std::size_t functions = box.box.coefficients.size(), stride = weights_of(rows.size(), functions);
+  std::vector<double> t;
   for (std::size_t j = rows.first; j < rows.last; ++j) t.push_back(local(box.box, 1, y_[j]));
-  Eigen::MatrixXd values;
-  chebyshev::polynomials(t, static_cast<int>(polynomials.size()) - 1, values);
+  Eigen::MatrixXd polynomials;
+  chebyshev::polynomials(t, static_cast<int>(box.box.coefficients[0].cols()) - 1, polynomials);
   box.weighted = rows;
+  std::vector<double> weights;
   for (auto& panel : box.panels) {
     panel.weights.resize(panel.terms() * stride);
-    sums.resize(panel.terms());
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      for (std::size_t l = 0; l < polynomials.size(); ++l)
-        polynomials[l] = values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(l));
-      for (std::size_t f = 0; f < functions; ++f) {
-        weigh(panel.functions.coefficients[f], polynomials, sums.data());
-        for (std::size_t k = 0; k < sums.size(); ++k) panel.weights[k * stride + r * functions + f] = sums[k];
+    weights.resize(panel.terms() * rows.size());
+    for (std::size_t f = 0; f < functions; ++f) {
+      const auto& c = panel.functions.coefficients[f];
+      detail::evaluate({.basis = polynomials.data(),
+                        .basis_stride = rows.size(),
+                        .weights = c.data(),
+                        .weights_stride = panel.terms(),
+                        .rows = panel.terms(),
+                        .columns = rows.size(),
+                        .terms = static_cast<std::size_t>(c.cols()),
+                        .values = weights.data(),
+                        .stride = rows.size()});
+      for (std::size_t k = 0; k < panel.terms(); ++k) {
+        for (std::size_t r = 0; r < rows.size(); ++r)
+          panel.weights[k * stride + r * functions + f] = weights[k * rows.size() + r];
       }
+      if (f == 0) panel.bends = bends_of(weights, rows.size(), panel.step);
     }
   }
 }
@@ -147,7 +167,7 @@ void SurrogateGrid::evaluate(const GridPiece& piece, double* values, std::size_t
     detail::evaluate({.basis = panel.basis.data() + (column - panel.columns.first),
                       .basis_stride = panel.columns.size(),
                       .weights = panel.weights.data() + (piece.first_row - box.weighted.first) * functions,
-                      .weights_stride = box.weighted.size() * functions,
+                      .weights_stride = weights_of(box.weighted.size(), functions),
                       .rows = piece.rows * functions,
                       .columns = end - column,
                       .terms = panel.terms(),
@@ -155,6 +175,15 @@ void SurrogateGrid::evaluate(const GridPiece& piece, double* values, std::size_t
                       .stride = stride});
     column = end;
   }
+}
+
+double SurrogateGrid::bend(const GridPiece& piece, std::size_t r) const {
+  const Box& box = boxes_[piece.box];
+  const auto panel = [&](std::size_t column) { return (column - box.columns.first) / kPanelColumns; };
+  double result = 0.0;
+  for (std::size_t i = panel(piece.first_column); i <= panel(piece.first_column + piece.columns - 1); ++i)
+    result = std::max(result, box.panels[i].bends[piece.first_row + r - box.weighted.first]);
+  return result;
 }
 
 }  // namespace strutt

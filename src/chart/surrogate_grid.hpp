@@ -11,7 +11,7 @@ namespace strutt {
 
 /// Some cells of a few rows of a chart that lie in one box.
 struct GridPiece {
-  static constexpr std::size_t kMostRows = 32, kMostColumns = 1920;
+  static constexpr std::size_t kMostRows = 16, kMostColumns = 2160;
   static constexpr std::size_t kTileColumns = 240;  ///< whole blocks of the tensor kernel
   std::size_t box = 0;
   std::size_t first_row = 0, rows = 0;
@@ -34,12 +34,18 @@ class SurrogateGrid {
   /// The cells of `rows` rows that lie in interpolated boxes. Rows must be asked for in ascending order.
   std::vector<GridPiece> pieces(std::size_t first_row, std::size_t rows);
 
+  bool empty() const { return boxes_.empty(); }
+
   /// With bounds for what `evaluate` gives.
   const SurrogateBox& box(const GridPiece& piece) const { return boxes_[piece.box].box; }
 
   /// The functions that the box interpolates, at a piece (or some cells of one) of the rows last asked for:
   /// function f of cell c of row r, counted in the piece, at values[(r * functions + f) * stride + c].
   void evaluate(const GridPiece& piece, double* values, std::size_t stride) const;
+
+  /// How far the first function leaves the straight line between neighbouring cells of row r of the piece,
+  /// and the cell before, at most.
+  double bend(const GridPiece& piece, std::size_t r) const;
 
  private:
   struct Range {
@@ -52,6 +58,8 @@ class SurrogateGrid {
     Range columns;
     std::vector<double> basis;    // terms x columns
     std::vector<double> weights;  // terms x functions of the rows last asked for
+    std::vector<double> bends;    // of these rows, see bend; of the first function
+    double step = 0.0;            // the widest between columns, of the 2 of the panel
     std::size_t terms() const { return static_cast<std::size_t>(functions.coefficients[0].rows()); }
   };
   struct Box {
@@ -63,7 +71,7 @@ class SurrogateGrid {
 
   static Range indices_in(const std::vector<double>& coordinates, double low, double high, bool with_high);
   void cut_into_panels(Box& box) const;
-  Panel panel(const SurrogateBox& box, const Range& columns) const;
+  Panel panel(const Box& box, const Range& columns) const;
   void contract(Box& box, const Range& rows) const;
 
   std::vector<double> x_, y_;  // axis coordinates

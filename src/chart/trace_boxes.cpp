@@ -99,4 +99,12 @@ std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, do
   return result;
 }
 
+double trace_bound(double error, const SurrogateBox& factors, const TraceScale& scale) {
+  std::vector<Eigen::ArrayXXd> largest;
+  for (const auto& c : factors.coefficients)
+    largest.push_back(Eigen::ArrayXXd::Constant(1, 1, c.cwiseAbs().sum()));
+  const double square = std::ldexp(1.0, static_cast<int>(2 * factors.exponent));
+  return error * size_of(largest, square, factors.kappa, scale)(0, 0);
+}
+
 }  // namespace strutt

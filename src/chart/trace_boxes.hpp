@@ -19,4 +19,7 @@ struct TraceScale {
 std::vector<SurrogateBox> trace_boxes(const std::vector<SurrogateBox>& boxes, double tolerance,
                                       const TraceScale& scale);
 
+/// A bound of the error of D itself in such a box, from that relative to M and the box of the factors.
+double trace_bound(double error, const SurrogateBox& factors, const TraceScale& scale);
+
 }  // namespace strutt

@@ -207,6 +207,66 @@ TEST_CASE("turns are followed from cell to cell by the signs", "[chart][simd][ra
   }
 }
 
+TEST_CASE("cells told by the discriminant are those told by their factors", "[chart][simd][ratchet]") {
+  const double h = GENERATE(0.0, 1e-9, 0.3);
+  const int side = GENERATE(-1, 0, 1);  // D below -2, between, above 2
+  constexpr std::size_t cells = 301;
+  Factors f;
+  std::vector<double> d;
+  for (std::size_t c = 0; c < cells + 8; ++c) {
+    const double share = static_cast<double>(c) / (cells + 8);
+    d.push_back(side == 0 ? 1.98 - 3.96 * share : side * (2.02 * std::exp(20.0 * share)));
+    // u1 = 1: u1' u2 = (D - 2)/4, u2' = (D + 2)/4
+    f.u1.push_back(1.0);
+    f.u2.push_back(1.0);
+    f.du1.push_back(0.25 * d[c] - 0.5);
+    f.du2.push_back(0.25 * d[c] + 0.5);
+  }
+  CellColumns columns;
+  columns.set(constant(h), constant(1.0), 0, 0, cells);
+  Row by_factors(f, cells), by_trace(f, cells);
+  by_factors.factor_error = {1e-13, 1e-13, 1e-13, 1e-13};
+  for (Row* row : {&by_factors, &by_trace}) {
+    row->damped = h != 0.0;
+    columns.give(*row, 0);
+    row->turns = {sign_quadrant(f.u2[0], f.du2[0]) + 8.0, sign_quadrant(f.u2[0], f.du2[0]), 0};
+    row->error = nullptr;
+  }
+  by_trace.discriminant = d.data();
+  by_trace.discriminant_error = 1e-12;
+  by_trace.discriminant_bound = 1e-11;
+  plain_cells(by_factors);
+  plain_cells(by_trace);
+  CHECK(by_trace.largest_error == 1e-12);
+  CHECK(by_trace.all_resolved == by_factors.all_resolved);
+  for (const auto& values : by_trace.results) CHECK(values[cells] == -77.0);
+  for (std::size_t c = 0; c < cells; ++c) {
+    INFO("cell " << c << ", D " << d[c] << ", h " << h);
+    CHECK(by_trace.verdict[c] == by_factors.verdict[c]);
+    check_within(
+        "trace of a cell by D alone over max(1; |trace|)",
+        std::abs(by_trace.trace[c] - by_factors.trace[c]) / std::max(1.0, std::abs(by_factors.trace[c])),
+        3e-15);
+    check_within(
+        "margin of a cell by D alone over max(1; |margin|)",
+        std::abs(by_trace.margin[c] - by_factors.margin[c]) / std::max(1.0, std::abs(by_factors.margin[c])),
+        3e-15);
+    check_within("growth of a cell by D alone (to 0.02 of an edge)",
+                 std::abs(by_trace.growth[c] - by_factors.growth[c]), 2e-14);
+    check_within("winding of a cell by D alone (to 0.02 of an edge)",
+                 std::abs(by_trace.winding[c] - by_factors.winding[c]), 2e-15);
+  }
+  // the verdict alone needs no arithmetic without damping
+  Row verdicts(f, cells);
+  verdicts.error = verdicts.margin = verdicts.growth = verdicts.winding = verdicts.trace = nullptr;
+  verdicts.damped = h != 0.0;
+  columns.give(verdicts, 0);
+  verdicts.discriminant = d.data();
+  verdicts.discriminant_bound = 1e-11;
+  plain_cells(verdicts);
+  for (std::size_t c = 0; c < cells; ++c) CHECK(verdicts.verdict[c] == by_factors.verdict[c]);
+}
+
 TEST_CASE("logarithm and arc sine in vector code are right to a few units", "[chart][simd]") {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> exponent(-40.0, 40.0), share(0.0, 1.0);
