@@ -103,7 +103,7 @@ void DampedTongue::add_wide(const Stretch& stretch) {
   if (!(from < to)) return;
   const auto changes = changes_in(stretch, from, to);
   std::optional<Narrow> estimate;
-  if (stretch.begin && stretch.end && undamped_.function().order() > 0) {
+  if (options_.widths && stretch.begin && stretch.end && undamped_.function().order() > 0) {
     const auto& edges = undamped_.function().at(to).edges;
     if (edges.upper.value - edges.lower->value < kEstimated) estimate = narrow(stretch);
   }
