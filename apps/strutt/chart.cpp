@@ -8,6 +8,7 @@
 #include "scene_arguments.hpp"
 #include "signals.hpp"
 #include "strutt/base/error.hpp"
+#include "strutt/chart/forecast.hpp"
 #include "strutt/io/figure.hpp"
 #include "terminal.hpp"
 
@@ -133,7 +134,9 @@ std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
   return std::make_unique<JsonChartWriter>(json_path(arguments), description);
 }
 
-constexpr int kMostOverlaidTongues = 40, kMostOverlaySlices = 300;
+constexpr int kMostOverlaidTongues = 40;
+constexpr double kOverlaySeconds = 20.0;   // of one thread, at most, as expected by counts
+constexpr double kLeastEvaluation = 1e-4;  // seconds
 constexpr double kOverlayResolution = 1e-5;
 constexpr double kOverlayChord = 2e-3;
 constexpr double kOverlaidSystemPoint = 2e-4;  // expected seconds; curves of a system take 1e4 to 1e5 points
@@ -148,9 +151,20 @@ int most_tongues(const Scene& scene, const TongueLine& x, const TongueLine& y) {
   return count;
 }
 
-/// The edges of tongues in the window of a chart; none where they cannot be had at little cost.
+/// How many evaluations curves may take: counts, so that no clock decides what is drawn.
+std::int64_t most_evaluations(const Scene& scene, const ChartRequest& request) {
+  const StabilityParts margin_alone{.verdict = false, .winding = false, .matrix = false};
+  const auto margin = forecast_points(scene, request.x, request.y, {.tolerance = 1e-13}, margin_alone);
+  return static_cast<std::int64_t>(kOverlaySeconds / std::max(margin.seconds, kLeastEvaluation));
+}
+
+/// The edges of tongues in the window of a chart; none, with a note, where they cannot be had at little cost.
 std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest& request,
-                                          const ChartPlan& plan) {
+                                          const ChartPlan& plan, bool quiet) {
+  const auto without = [&](const std::string& reason) {
+    if (!quiet) print_note("no tongue edges in the figure: " + reason);
+    return std::vector<TongueCurve>{};
+  };
   const auto line = [](const Axis& axis) {
     return TongueLine{axis.parameter, std::min(axis.from, axis.to), std::max(axis.from, axis.to)};
   };
@@ -159,19 +173,22 @@ std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest
   try {
     const bool indexed = has_tongue_index(scene, x);
     const int count = indexed ? most_tongues(scene, x, y) : 0;
-    if (indexed ? count > kMostOverlaidTongues : plan.point.seconds > kOverlaidSystemPoint) return {};
+    if (count > kMostOverlaidTongues)
+      return without(fmt::format("{} tongues, more than {}", count, kMostOverlaidTongues));
+    if (!indexed && plan.point.seconds > kOverlaidSystemPoint)
+      return without("they would take long for this system");
     return tongue_curves(scene, x, y,
                          {.tolerance = 1e-9,
                           .chord = kOverlayChord,
                           .count = count,
                           .resolution = kOverlayResolution,
-                          .max_slices = kMostOverlaySlices,
+                          .max_evaluations = most_evaluations(scene, request),
                           .threads = request.threads,
                           .cancel = &cancel_flag()});
-  } catch (const InvalidInput&) {
-    return {};
-  } catch (const NumericalFailure&) {
-    return {};
+  } catch (const InvalidInput& error) {
+    return without(error.what());
+  } catch (const NumericalFailure& error) {
+    return without(std::string("they would take long, ") + error.what());
   }
 }
 
@@ -185,7 +202,7 @@ class Sinks {
     ChartDescription all = description;
     all.request = computed;
     figure_.emplace(*arguments.figure, all);
-    figure_->set_tongues(overlaid_tongues(scene, computed, plan));
+    figure_->set_tongues(overlaid_tongues(scene, computed, plan, arguments.quiet));
   }
 
   void add(const ChartStrip& strip) {

@@ -7,14 +7,14 @@
 
 #include "chart/system_tongues.hpp"
 #include "chart/tongues_of_order.hpp"
-#include "strutt/base/error.hpp"
 
 namespace strutt {
 namespace {
 
 constexpr int kTipSteps = 60;
-constexpr double kTipResolution = 0x1p-50;  // of the range
-constexpr double kBesideTip = 0.02;         // of the way to it
+constexpr double kTipResolution = 0x1p-50;  // of the range, or so much of the tolerance:
+constexpr double kFarBelowTolerance = 0x1p-10;
+constexpr double kBesideTip = 0.02;  // of the way to it
 
 /// Distance and middle of a pair.
 struct Pair {
@@ -50,16 +50,15 @@ double SliceSource::thinnest() const {
 }
 
 Slice SliceSource::at(double over) {
-  if (++slices_ > options_.max_slices)
-    throw NumericalFailure("tongue " + std::to_string(order_) + ": too many lines for its curves");
   parameter(scene_, over_.parameter) = over;
   const TongueOptions options{.tolerance = options_.tolerance,
                               .system_steps = options_.system_steps,
                               .resolution = options_.resolution,
                               .widths = false,
                               .cancel = options_.cancel};
-  const auto edges = order_ == kNoOrder ? system_tongues(engine_, scene_, along_, options)
-                                        : TonguesOfOrder(engine_, scene_, along_, options).edges(order_);
+  const auto edges = order_ == kNoOrder
+                         ? system_tongues(engine_, scene_, along_, options, &evaluations_)
+                         : TonguesOfOrder(engine_, scene_, along_, options, &evaluations_).edges(tongue_);
   Slice slice{over, {}};
   for (const TongueEdge& edge : edges) {
     slice.edges.push_back({edge, false});
@@ -75,10 +74,12 @@ CurveTip find_tip(SliceSource& source, double none, const Slice& with, std::size
   const double finest = source.resolution() * (source.along().to - source.along().from);
   Pair near(with, pair, finest);
   std::optional<Pair> far;
-  const double resolution = kTipResolution * (source.over().to - source.over().from);
+  const double resolution = std::max(kTipResolution * (source.over().to - source.over().from),
+                                     kFarBelowTolerance * source.tolerance());
   bool inner = true;  // next on the side of the pair
   double tip = std::midpoint(none, near.over);
-  for (int step = 0; step < kTipSteps && std::abs(near.over - none) > resolution; ++step) {
+  for (int step = 0; step < kTipSteps && std::abs(near.over - none) > resolution && !source.cancelled();
+       ++step) {
     double next = std::midpoint(none, near.over);
     if (far && far->square > near.square) {
       tip = near.over - near.square * (far->over - near.over) / (far->square - near.square);

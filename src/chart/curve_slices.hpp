@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "chart/known_tongue.hpp"
 #include "strutt/chart/tongue_curves.hpp"
 #include "strutt/floquet/monodromy.hpp"
 
@@ -26,10 +27,18 @@ Slice without_pair(Slice slice, std::size_t first);
 class SliceSource {
  public:
   SliceSource(const Scene& scene, const TongueLine& along, const TongueLine& over, int order,
-              const CurveOptions& options)
-      : scene_(scene), along_(along), over_(over), order_(order), options_(options) {}
+              const CurveOptions& options, Evaluations& evaluations)
+      : scene_(scene),
+        along_(along),
+        over_(over),
+        order_(order),
+        options_(options),
+        evaluations_(evaluations),
+        tongue_(order, options.cancel, &evaluations) {}
 
-  Slice at(double over);  ///< throws NumericalFailure after max_slices
+  Slice at(double over);
+  bool cancelled() const { return options_.cancel != nullptr && *options_.cancel; }
+  double tolerance() const { return options_.tolerance; }
   double resolution() const { return options_.resolution; }
   double thinnest()
       const;  ///< pairs of systems that are thinner are left out of slices: they show in some only
@@ -44,7 +53,8 @@ class SliceSource {
   const TongueLine& over_;
   int order_;
   const CurveOptions& options_;
-  int slices_ = 0;
+  Evaluations& evaluations_;
+  KnownTongue tongue_;  ///< what one slice leaves for the next
 };
 
 /// Where a pair of neighbouring edges comes into being.

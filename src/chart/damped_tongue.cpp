@@ -15,6 +15,7 @@ constexpr double kUneven = 1e-2;     // change of h/h0 across the tongue, above 
 constexpr double kEstimated = 1e-2;  // the same, below which the narrow form is worth a comparison
 constexpr double kCurvature =
     8.0;  // bounds the relative error of the narrow form by its product with width^2
+constexpr double kFarBelow = 0x1p-10;  // of the tolerance: good enough where no width follows from it
 constexpr int kStepsOfMean = 8;
 constexpr int kGrowthSteps = 16;
 
@@ -42,16 +43,16 @@ TongueEdge DampedTongue::edge(double position, double error, bool upper) const {
 /// with b = eta |dh/dnu|, up to terms of eta^2: a^2 = |beta|^2 - b^2.
 DampedTongue::Narrow DampedTongue::narrow(const Stretch& stretch) {
   const auto& value = undamped_.function().at(stretch.end->position);
-  const TongueWidth in_mean = tongue_width(value.point.variation, value.edges, value.point.relative_error);
+  KnownTongue& tongue = undamped_.function().tongue();
+  const TongueWidth in_mean = tongue.width(value.point.variation, value.edges, value.point.relative_error);
   const TongueEdge low = undamped_.edge(*stretch.begin, false, 0),
                    high = undamped_.edge(*stretch.end, true, 0);
   const TongueWidth whole = undamped_.width_of(*stretch.begin, *stretch.end, low, high);
-  const double growth_high = narrow_tongue_growth(value.point.variation, value.edges, in_mean);
+  const double growth_high = tongue.growth(value.point.variation, value.edges, value.point.relative_error);
   double growth_low = growth_high;
   if (!equation_.one_variation()) {
     const auto& at_low = undamped_.function().at(stretch.begin->position);
-    growth_low = narrow_tongue_growth(at_low.point.variation, at_low.edges,
-                                      tongue_width(at_low.point.variation, at_low.edges));
+    growth_low = tongue.growth(at_low.point.variation, at_low.edges, at_low.point.relative_error);
   }
   const double growth = std::midpoint(growth_low, growth_high);
   const double middle = std::midpoint(low.position, high.position);
@@ -76,6 +77,18 @@ DampedTongue::Narrow DampedTongue::narrow(const Stretch& stretch) {
   return result;
 }
 
+/// Whether damping closes a tongue on a stretch by far, whatever its width is below what double precision
+/// leaves open.
+bool DampedTongue::clearly_closed(const Stretch& stretch) {
+  constexpr double kFar = 2.0;  // more than the growth of a narrow tongue changes between its edges
+  for (const double position : {stretch.begin->position, stretch.end->position}) {
+    const auto& value = undamped_.function().at(position);
+    const double most = undamped_.function().tongue().growth_bound(value.point.variation, value.edges);
+    if (!(equation_.half_damping(position) > kFar * most)) return false;
+  }
+  return true;
+}
+
 bool DampedTongue::add_narrow(const Stretch& stretch) {
   if (undamped_.function().order() == 0 || !stretch.begin || !stretch.end) return false;
   const auto& edges = undamped_.function().at(stretch.end->position).edges;
@@ -83,6 +96,7 @@ bool DampedTongue::add_narrow(const Stretch& stretch) {
   if (equation_.half_damping(stretch.begin->position) == 0.0 &&
       equation_.half_damping(stretch.end->position) == 0.0)
     return false;
+  if (clearly_closed(stretch)) return true;
   const Narrow left = narrow(stretch);
   if (!(left.uneven < kUneven)) return false;
   if (left.width.relative_error >= 1.0) return true;  // closed, or it cannot be said
@@ -103,7 +117,7 @@ void DampedTongue::add_wide(const Stretch& stretch) {
   if (!(from < to)) return;
   const auto changes = changes_in(stretch, from, to);
   std::optional<Narrow> estimate;
-  if (stretch.begin && stretch.end && undamped_.function().order() > 0) {
+  if (options_.widths && stretch.begin && stretch.end && undamped_.function().order() > 0) {
     const auto& edges = undamped_.function().at(to).edges;
     if (edges.upper.value - edges.lower->value < kEstimated) estimate = narrow(stretch);
   }
@@ -128,6 +142,7 @@ std::vector<StabilityChange> DampedTongue::changes_in(const Stretch& stretch, do
   const ChangeSearch search{.steps = kStepsOfMean,
                             .stable_from = stretch.begin.has_value(),
                             .stable_to = stretch.end.has_value(),
+                            .resolution = options_.widths ? 0.0 : kFarBelow * options_.tolerance,
                             .cancel = options_.cancel};
   const bool whole = (stretch.begin && stretch.end) || undamped_.function().order() == 0;
   if (whole && only_mean_changes(from, to)) return stability_changes(verdicts_, from, to, search);

@@ -31,6 +31,7 @@ class DampedTongue {
     double uneven;  ///< by how much h/h0 differs between both undamped edges, relatively
   };
   Narrow narrow(const Stretch& stretch);
+  bool clearly_closed(const Stretch& stretch);
 
   std::vector<StabilityChange> changes_in(const Stretch& stretch, double from, double to);
   bool only_mean_changes(double from, double to);

@@ -18,14 +18,6 @@ namespace {
 
 constexpr int kBlock = 32;  // orders computed together
 
-bool same_function(const PeriodicFunction& a, const PeriodicFunction& b) {
-  if (is_square(a) || is_square(b))
-    return is_square(a) && is_square(b) && a.square_amplitude() == b.square_amplitude();
-  return std::ranges::equal(a.harmonics(), b.harmonics(), [](const Harmonic& x, const Harmonic& y) {
-    return x.order == y.order && x.cosine == y.cosine && x.sine == y.sine;
-  });
-}
-
 std::optional<double> amplitude_of_one_harmonic(const PeriodicFunction& v) {
   if (v.is_constant()) return 0.0;
   if (v.harmonics().size() != 1 || v.harmonics().front().order != 1) return std::nullopt;
@@ -143,9 +135,8 @@ double EdgeFunction::Value::error(bool upper) const {
 const EdgeFunction::Value& EdgeFunction::at(double parameter) {
   if (const auto found = known_.find(parameter); found != known_.end()) return found->second;
   const LinePoint point = line_.at(parameter);
-  const bool same = last_ && same_function(last_->point.variation, point.variation);
-  last_ = Value{point, same ? last_->edges : edges_of(point, order_)};
-  return known_.emplace(parameter, *last_).first->second;
+  const TongueEdges edges = tongue_.edges(point.variation, [&] { return edges_of(point, order()); });
+  return known_.emplace(parameter, Value{point, edges}).first->second;
 }
 
 TongueEdges EdgeFunction::edges_of(const LinePoint& point, int order) {
@@ -156,7 +147,7 @@ TongueEdges EdgeFunction::edges_of(const LinePoint& point, int order) {
 
 double EdgeFunction::gap(const Value& value, bool upper) {
   double result = kInfinity;
-  for (const int next : {order_ - 2, order_ + 2}) {
+  for (const int next : {order() - 2, order() + 2}) {
     if (next < 0 || next > kLargestTongue) continue;
     const Value other{value.point, edges_of(value.point, next)};
     for (const bool edge : {false, true}) {
@@ -171,7 +162,7 @@ double EdgeFunction::gap(const Value& value, bool upper) {
 
 std::optional<double> EdgeFunction::bend(const Value& a, const Value& b, bool upper) {
   const auto &from = a.point.variation, &to = b.point.variation;
-  if (a.point.mean != b.point.mean || order_ + 2 > kLargestTongue || !same_direction(from, to)) return {};
+  if (a.point.mean != b.point.mean || order() + 2 > kLargestTongue || !same_direction(from, to)) return {};
   if (is_square(from)) {
     const auto left = square_wave_upper_is_even(from.deviation(), a.edges),
                right = square_wave_upper_is_even(to.deviation(), b.edges);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "chart/known_tongue.hpp"
 #include "strutt/chart/tongues.hpp"
 #include "strutt/floquet/monodromy.hpp"
 
@@ -54,7 +55,7 @@ class LineEquation {
 /// F(p) = mean(p) - edge(V(p)) of both edges of one tongue.
 class EdgeFunction {
  public:
-  EdgeFunction(LineEquation& line, int order) : line_(line), order_(order) {}
+  EdgeFunction(LineEquation& line, KnownTongue& tongue) : line_(line), tongue_(tongue) {}
 
   struct Value {
     LinePoint point;
@@ -64,7 +65,8 @@ class EdgeFunction {
     const CharacteristicValue& edge(bool upper) const { return upper ? edges.upper : *edges.lower; }
   };
   const Value& at(double parameter);
-  int order() const { return order_; }
+  int order() const { return tongue_.order(); }
+  KnownTongue& tongue() { return tongue_; }
 
   /// How far F is, between two places, from the straight line in A through its values there, at most. Nothing
   /// unless V = A s with one cosine or square wave s, A of one sign and one mean, or where edges of the same
@@ -86,9 +88,8 @@ class EdgeFunction {
   double gap(const Value& value, bool upper);
 
   LineEquation& line_;
-  int order_;
+  KnownTongue& tongue_;
   std::map<double, Value> known_;
-  std::optional<Value> last_;
 };
 
 }  // namespace strutt

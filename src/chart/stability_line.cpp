@@ -96,8 +96,9 @@ class ChangeFinder {
       if (p == stable_end) return std::clamp(margin.value, 1e-300, 1.0);
       return std::clamp(proved ? margin.value : margin.value + margin.error, -1.0, 1.0);
     };
+    const auto close = [this](double a, double b) { return are_neighbours(a, b) || b - a <= resolution(a); };
     const ZeroBracket bracket = bracketed_zero(value, low.position, high.position, value(low.position),
-                                               value(high.position), are_neighbours, 200);
+                                               value(high.position), close, 200);
     StabilityChange change{.position = bracket.middle(), .begins = high.unstable};
     const double to_unstable = distance_to(change.position, unstable_end, true);
     change.unstable_at = change.position + std::copysign(to_unstable, unstable_end - change.position);
@@ -113,9 +114,12 @@ class ChangeFinder {
            (search_.stable_to && p == samples_.back().position);
   }
 
+  double resolution(double p) const { return search_.resolution * std::max(1.0, std::abs(p)); }
+
   /// How far from p towards `end` the verdict is certain.
   double distance_to(double p, double end, bool unstable) {
-    return certain_distance(p, end, [&](double place) {
+    const double rounding = kUnit * std::max(std::abs(p), std::abs(end - p));
+    return certain_distance(p, end, std::max(rounding, resolution(p)), [&](double place) {
       return unstable ? line_.at(place).unstable() : line_.at(place).stable();
     });
   }
@@ -128,11 +132,16 @@ class ChangeFinder {
 }  // namespace
 
 StabilityLine::StabilityLine(MonodromyEngine& engine, const Scene& scene, const std::string& path,
-                             bool multipliers)
-    : engine_(engine), scene_(scene), value_(&parameter(scene_, path)), multipliers_(multipliers) {}
+                             bool multipliers, Evaluations* evaluations)
+    : engine_(engine),
+      scene_(scene),
+      value_(&parameter(scene_, path)),
+      multipliers_(multipliers),
+      evaluations_(evaluations) {}
 
 const StabilityLine::Point& StabilityLine::at(double parameter) {
   if (const auto found = known_.find(parameter); found != known_.end()) return found->second;
+  if (evaluations_ != nullptr) evaluations_->add(1);
   *value_ = parameter;
   const StabilityParts parts{.verdict = false, .winding = false, .matrix = multipliers_};
   const Stability s = analyse(engine_, linear_model(scene_), {.tolerance = kTolerance}, parts);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "chart/evaluations.hpp"
 #include "strutt/floquet/stability.hpp"
 
 namespace strutt {
@@ -26,8 +27,10 @@ class StabilityLine {
     bool stable() const { return margin.value > margin.error; }
   };
 
-  /// `multipliers`: whether they are wanted. The engine keeps its plans from line to line.
-  StabilityLine(MonodromyEngine& engine, const Scene& scene, const std::string& path, bool multipliers);
+  /// `multipliers`: whether they are wanted. The engine keeps its plans from line to line. `evaluations`
+  /// counts the points.
+  StabilityLine(MonodromyEngine& engine, const Scene& scene, const std::string& path, bool multipliers,
+                Evaluations* evaluations = nullptr);
   StabilityLine(const StabilityLine&) = delete;
 
   const Point& at(double parameter);
@@ -41,6 +44,7 @@ class StabilityLine {
   Scene scene_;
   double* value_;
   bool multipliers_;
+  Evaluations* evaluations_;
   std::map<double, Point> known_;
 };
 
@@ -55,6 +59,8 @@ struct StabilityChange {
 struct ChangeSearch {
   int steps = 32;
   bool stable_from = false, stable_to = false;  ///< the ends are known to be stable
+  double resolution =
+      0.0;  ///< relative to max(1, |position|): positions and errors are good to that, no better
   const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -41,8 +41,8 @@ void add_width(TongueEdge& low, TongueEdge& high, double errors) {
 }  // namespace
 
 std::vector<TongueEdge> system_tongues(MonodromyEngine& engine, const Scene& scene, const TongueLine& along,
-                                       const TongueOptions& options) {
-  StabilityLine line(engine, scene, along.parameter, true);
+                                       const TongueOptions& options, Evaluations* evaluations) {
+  StabilityLine line(engine, scene, along.parameter, true, evaluations);
   auto changes = stability_changes(line, along.from, along.to,
                                    {.steps = options.system_steps, .cancel = options.cancel});
   for (StabilityChange& change : changes)

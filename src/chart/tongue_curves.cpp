@@ -18,6 +18,8 @@ void validate(const CurveOptions& options) {
   require(options.slices >= 1, "slices", options.slices, "1 or more");
   require(options.resolution >= 1e-12 && options.resolution <= 1e-2, "resolution", options.resolution,
           "1e-12 to 1e-2");
+  require(options.max_evaluations >= 1, "max_evaluations", static_cast<double>(options.max_evaluations),
+          "1 or more");
   require(options.system_steps >= 2, "system_steps", options.system_steps, "2 or more");
 }
 
@@ -64,9 +66,10 @@ std::vector<TongueCurve> tongue_curves(const Scene& scene, const TongueLine& alo
     require(options.count == 0, "count", options.count, "0 where tongues have no index");
   }
   std::vector<std::vector<TongueCurve>> found(orders.size());
+  Evaluations evaluations(options.max_evaluations);
   parallel_for(orders.size(), {.threads = options.threads, .cancel = options.cancel},
                [&](std::size_t i, int) {
-                 SliceSource source(scene, along, over, orders[i], options);
+                 SliceSource source(scene, along, over, orders[i], options, evaluations);
                  found[i] = CurveTracer(source, orders[i], options).curves();
                });
   std::vector<TongueCurve> result;

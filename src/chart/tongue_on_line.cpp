@@ -162,7 +162,8 @@ TongueWidth TongueOnLine::width_by_slope(const EdgeZero& begin, const EdgeZero& 
   const auto slope = function_.slope(false, from, to, line_);
   if (!slope) return {to - from, kNaN};
   const auto& value = function_.at(begin.upper ? begin.position : end.position);
-  TongueWidth width = tongue_width(value.point.variation, value.edges, value.point.relative_error);
+  TongueWidth width =
+      function_.tongue().width(value.point.variation, value.edges, value.point.relative_error);
   width.value /= std::abs(slope->value);
   if (width.relative_error >= 1.0 || width.value == 0.0) return width;
   width.relative_error = std::min(1.0, width.relative_error + slope->relative_error + 4.0 * kUnit);

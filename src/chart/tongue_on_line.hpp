@@ -19,8 +19,9 @@ struct Stretch {
 /// Tongue n of the undamped equation on a line.
 class TongueOnLine {
  public:
-  TongueOnLine(LineEquation& equation, int order, const TongueLine& line, const TongueOptions& options)
-      : line_equation_(equation), function_(equation, order), line_(line), options_(options) {}
+  TongueOnLine(LineEquation& equation, KnownTongue& tongue, const TongueLine& line,
+               const TongueOptions& options)
+      : line_equation_(equation), function_(equation, tongue), line_(line), options_(options) {}
 
   EdgeFunction& function() { return function_; }
 

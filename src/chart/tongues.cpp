@@ -89,7 +89,10 @@ std::vector<TongueEdge> tongues(const Scene& scene, const TongueLine& line, cons
   const int count = options.count > 0 ? options.count : tongue_count(scene, line);
   TonguesOfOrder of(engine, scene, line, options);
   std::vector<TongueEdge> result;
-  for (int order = 0; order < count; ++order) std::ranges::move(of.edges(order), std::back_inserter(result));
+  for (int order = 0; order < count; ++order) {
+    KnownTongue tongue(order, options.cancel);
+    std::ranges::move(of.edges(tongue), std::back_inserter(result));
+  }
   return result;
 }
 

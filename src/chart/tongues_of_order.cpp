@@ -16,18 +16,18 @@ bool is_damped(const Scene& scene, const TongueLine& line) {
 }
 
 TonguesOfOrder::TonguesOfOrder(MonodromyEngine& engine, const Scene& scene, const TongueLine& line,
-                               const TongueOptions& options)
+                               const TongueOptions& options, Evaluations* evaluations)
     : line_(line),
       options_(options),
       equation_(scene, line_),
       changes_(change_between(equation_.at(line.from), equation_.at(line.to)) != 0.0),
       extended_(scene, line.parameter, options.cancel) {
-  if (is_damped(scene, line)) verdicts_.emplace(engine, scene, line.parameter, false);
+  if (is_damped(scene, line)) verdicts_.emplace(engine, scene, line.parameter, false, evaluations);
 }
 
-std::vector<TongueEdge> TonguesOfOrder::edges(int order) {
+std::vector<TongueEdge> TonguesOfOrder::edges(KnownTongue& known) {
   if (!changes_) return {};
-  TongueOnLine tongue(equation_, order, line_, options_);
+  TongueOnLine tongue(equation_, known, line_, options_);
   if (!verdicts_) return tongue.edges();
   return DampedTongue(equation_, tongue, *verdicts_, extended_, line_, options_).edges();
 }

@@ -16,9 +16,9 @@ bool is_damped(const Scene& scene, const TongueLine& line);
 class TonguesOfOrder {
  public:
   TonguesOfOrder(MonodromyEngine& engine, const Scene& scene, const TongueLine& line,
-                 const TongueOptions& options);
+                 const TongueOptions& options, Evaluations* evaluations = nullptr);
 
-  std::vector<TongueEdge> edges(int order);
+  std::vector<TongueEdge> edges(KnownTongue& tongue);
 
  private:
   TongueLine line_;

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "floquet/cancellable_width.hpp"
 #include "floquet/fourier_excitation.hpp"
 #include "floquet/resonant_block.hpp"
 #include "floquet/square_wave.hpp"
@@ -45,8 +46,9 @@ template <typename Real, typename Value>
 class WidthSearch {
  public:
   /// `uncertainty`: what the coefficients may move the edges.
-  WidthSearch(const HillMatrix& matrix, const TongueEdges& edges, double uncertainty)
-      : matrix_(matrix), order_(edges.order) {
+  WidthSearch(const HillMatrix& matrix, const TongueEdges& edges, double uncertainty,
+              const std::atomic<bool>* cancel)
+      : matrix_(matrix), order_(edges.order), cancel_(cancel) {
     lower_ = ball(*edges.lower, uncertainty);
     upper_ = ball(edges.upper, uncertainty);
   }
@@ -55,10 +57,11 @@ class WidthSearch {
     ResonantBlock<Value> block = at(hull());
     if (!block.finite()) return;
     use(block, enclosure);
-    if (enclosure.sharp()) return;
+    if (enclosure.sharp() || cancelled()) return;
     refine(block);
     const Ball<Real> difference = upper_ - lower_;
     enclosure.narrow(difference.lower(), difference.upper());
+    if (cancelled()) return;
     block = at(hull());
     if (!block.finite()) return;
     use(block, enclosure);
@@ -66,6 +69,8 @@ class WidthSearch {
   }
 
  private:
+  bool cancelled() const { return cancel_ != nullptr && *cancel_; }
+
   static Ball<Real> ball(const CharacteristicValue& x, double uncertainty) {
     return {Real(x.value), (static_cast<long double>(x.error) + uncertainty) * Ball<Real>::kUp};
   }
@@ -115,7 +120,7 @@ class WidthSearch {
     for (int j = 0; j < kParts; ++j) {
       const Real middle = lower_.middle + way * (2 * j + 1) / (2 * kParts);
       const auto block = at(around(middle, half));
-      if (!block.finite()) return {1.0L, std::numeric_limits<long double>::infinity()};
+      if (!block.finite() || cancelled()) return {1.0L, std::numeric_limits<long double>::infinity()};
       least += std::max(block.distance.slope.lower(), 1.0L);
       largest += block.distance.slope.upper();
     }
@@ -151,7 +156,7 @@ class WidthSearch {
   template <typename Function>
   Ball<Real> zero(Ball<Real> x, const Ball<Real>& slope, const Function& function) const {
     const Ball<Real> inverse = real_inverse(slope);
-    for (int step = 0; inverse.finite() && step < kMostSteps; ++step) {
+    for (int step = 0; inverse.finite() && step < kMostSteps && !cancelled(); ++step) {
       const Ball<Real> middle{x.middle, 0};
       const Ball<Real> next = middle - function(at(middle)) * inverse;
       if (!(next.radius < 0.5L * x.radius)) break;
@@ -162,18 +167,20 @@ class WidthSearch {
 
   const HillMatrix& matrix_;
   int order_;
+  const std::atomic<bool>* cancel_;
   Ball<Real> lower_, upper_;
 };
 
 template <unsigned digits>
-void search(const FourierExcitation& v, const TongueEdges& edges, Enclosure& enclosure) {
-  if (enclosure.sharp()) return;
+void search(const FourierExcitation& v, const TongueEdges& edges, const std::atomic<bool>* cancel,
+            Enclosure& enclosure) {
+  if (enclosure.sharp() || (cancel != nullptr && *cancel)) return;
   const HillMatrix matrix = v.matrix(HillBasis::bloch, edges.order % 2 == 0 ? 0.0 : 0.5);
   using Real = Wide<digits>;
   if (v.even)
-    WidthSearch<Real, Real>(matrix, edges, v.uncertainty()).run(enclosure);
+    WidthSearch<Real, Real>(matrix, edges, v.uncertainty(), cancel).run(enclosure);
   else
-    WidthSearch<Real, WideComplex<Real>>(matrix, edges, v.uncertainty()).run(enclosure);
+    WidthSearch<Real, WideComplex<Real>>(matrix, edges, v.uncertainty(), cancel).run(enclosure);
 }
 
 /// |dh/dx| / |dh/dnu| in the middle of a tongue.
@@ -200,6 +207,11 @@ int common_order(const FourierExcitation& v) {
 
 TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges& edges,
                          double coefficient_error) {
+  return cancellable_width(coefficient, edges, coefficient_error, nullptr);
+}
+
+TongueWidth cancellable_width(const PeriodicFunction& coefficient, const TongueEdges& edges,
+                              double coefficient_error, const std::atomic<bool>* cancel) {
   const DefaultFloatingPoint environment;
   require(edges.order >= 1 && edges.lower.has_value(), "order of the tongue", edges.order, "1 or more");
   if (is_square_wave(coefficient))
@@ -213,10 +225,10 @@ TongueWidth tongue_width(const PeriodicFunction& coefficient, const TongueEdges&
   const long double error = static_cast<long double>(high.error) + low.error + 2.0L * v.uncertainty();
   Enclosure enclosure;
   enclosure.narrow(difference - error, difference + error);
-  search<34>(v, edges, enclosure);
+  search<34>(v, edges, cancel, enclosure);
   if (v.uncertainty() == 0.0) {  // more digits than the coefficients have are of no use
-    search<110>(v, edges, enclosure);
-    search<350>(v, edges, enclosure);
+    search<110>(v, edges, cancel, enclosure);
+    search<350>(v, edges, cancel, enclosure);
   }
   return enclosure.width();
 }

@@ -87,6 +87,10 @@ std::string image(const FigureData& data, std::size_t repeat) {
       kCellsFile, width, height, dx, dy, low_x + dx / 2, low_y + dy / 2);
 }
 
+/// Characters that gnuplot adds to its estimate of a title, which is generous: with less of it six entries
+/// with the longest titles still stand in two rows.
+int key_width(const FigureContent& content) { return content.tongues.by_mechanism() ? -3 : 1; }
+
 std::string label_commands(const std::vector<LineLabel>& labels) {
   std::string text;
   for (const auto& label : labels) {
@@ -123,9 +127,9 @@ std::string figure_script(const ChartDescription& description, const FigureData&
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
       "{}\n"
       "set border 15 linewidth 0.7 front\nset tics front\nset boxwidth 1\n"
-      "set key at screen {},0.012 center bottom horizontal Left reverse samplen 2 width 1 maxrows 2\n",
+      "set key at screen {},0.012 center bottom horizontal Left reverse samplen 2 width {} maxrows 2\n",
       gnuplot_terminal(content.format), kPictureFile, gnuplot_string(chart_title(description)), kLeft, kRight,
-      kBottom, kTop, (kLeft + kRight) / 2);
+      kBottom, kTop, (kLeft + kRight) / 2, key_width(content));
   text += axis_commands('x', request.x, description.x, data.columns());
   text += axis_commands('y', request.y, description.y, data.rows());
   text += colour_bar(content.scale) + label_commands(content.labels);

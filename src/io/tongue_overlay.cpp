@@ -24,11 +24,11 @@ struct TongueOverlay::Style {
 // Colours that differ in lightness too, and dashes that nobody needs colours to tell apart.
 const TongueOverlay::Style TongueOverlay::kTongue{"tongue edges (min. stroke)",
                                                   "linewidth 1.2 linecolor rgb '#000000'"};
-const TongueOverlay::Style TongueOverlay::kMinusOne{"edge: through -1",
+const TongueOverlay::Style TongueOverlay::kMinusOne{"edge -1 (min. stroke)",
                                                     "linewidth 1.4 linecolor rgb '#000000'"};
-const TongueOverlay::Style TongueOverlay::kPlusOne{"edge: through +1",
+const TongueOverlay::Style TongueOverlay::kPlusOne{"edge +1 (min. stroke)",
                                                    "linewidth 1.6 dashtype (14,5) linecolor rgb '#0072B2'"};
-const TongueOverlay::Style TongueOverlay::kComplex{"edge: complex",
+const TongueOverlay::Style TongueOverlay::kComplex{"complex (min. stroke)",
                                                    "linewidth 1.8 dashtype (4,3) linecolor rgb '#6A1B9A'"};
 
 const TongueOverlay::Style* TongueOverlay::style_of(const TongueCurve& curve, const CurvePoint& point) {

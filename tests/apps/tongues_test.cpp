@@ -173,7 +173,7 @@ TEST_CASE("the figure of a chart has the edges of its tongues, or does without",
       "[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1.3, -0.3], [-0.3, 2.3]], "
       "harmonics = [{ order = 1, cos = [[0.4, 0], [0, 0]] }] }\n",
       {"--x", "linear.period=2.61:3.07:11", "--y", "linear.stiffness.harmonics.1.cos.0.0=0.31:0.83:9"});
-  CHECK_THAT(system, Contains("edge: through -1") && !Contains("edge: complex") &&
+  CHECK_THAT(system, Contains("edge -1 (min. stroke)") && !Contains("complex") &&
                          !Contains("edge of stability") && !Contains("tongue edges"));
 }
 
@@ -201,7 +201,20 @@ TEST_CASE("tongues that every cell of a chart misses are drawn on its figure",
       "[linear]\nperiod = 3\nmass = [[1, 0], [0, 1]]\nstiffness = { mean = [[1.3, -0.3], [-0.3, 2.3]], "
       "harmonics = [{ order = 1, cos = [[0.4, 0], [0, 0]] }] }\n",
       {"--x", "linear.period=2.2:2.5:6", "--y", "linear.stiffness.harmonics.1.cos.0.0=0.01:0.05:5"},
-      "edge: complex");
+      "complex (min. stroke)");
+}
+
+TEST_CASE("a figure without the edges of tongues says why", "[apps][tongues][figure]") {
+  const ScratchDirectory directory;
+  const Setup setup{.input = "[mathieu]\n", .directory = directory.path()};
+  Words words{"chart", "-",        "--x",  "mathieu.delta=0:1000:3", "--y", "mathieu.epsilon=0:1:2", "-o",
+              "c.csv", "--figure", "c.svg"};
+  const Result result = strutt(words, setup);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.err, Catch::Matchers::Contains("no tongue edges in the figure") &&
+                             Catch::Matchers::Contains("more than 40"));
+  words.emplace_back("--quiet");
+  CHECK(strutt(words, setup).err.empty());
 }
 
 TEST_CASE("a scene that has no tongues at all is a mistake of the file", "[apps][tongues]") {

@@ -12,7 +12,8 @@ TEST_CASE("between two places an edge of Mathieu's equation bends less than its 
   const TongueLine line{"mathieu.epsilon", 0.0, 5.0};
   LineEquation equation(mathieu_scene(1.0, 0.0), line);
   for (const int order : {0, 1, 2, 5}) {
-    EdgeFunction function(equation, order);
+    KnownTongue tongue(order);
+    EdgeFunction function(equation, tongue);
     double largest_share = 0.0;
     for (const double from : {0.0, 0.1, 1.0, 4.0}) {
       for (const bool upper : {false, true}) {
@@ -34,11 +35,13 @@ TEST_CASE("between two places an edge of Mathieu's equation bends less than its 
 TEST_CASE("nothing is said of the bend where the mean changes or epsilon changes its sign",
           "[chart][tongues]") {
   LineEquation equation(mathieu_scene(1.0, 0.5), {"mathieu.epsilon", -1.0, 1.0});
-  EdgeFunction function(equation, 2);
+  KnownTongue tongue(2);
+  EdgeFunction function(equation, tongue);
   CHECK_FALSE(function.bend(function.at(-0.1), function.at(0.1), true));
   CHECK(function.bend(function.at(-0.2), function.at(-0.1), true));
   LineEquation other(mathieu_scene(1.0, 0.5), {"mathieu.delta", 0.0, 1.0});
-  EdgeFunction moved(other, 2);
+  KnownTongue moved_tongue(2);
+  EdgeFunction moved(other, moved_tongue);
   CHECK_FALSE(moved.bend(moved.at(0.4), moved.at(0.5), true));
 }
 

@@ -199,6 +199,24 @@ TEST_CASE("curves of systems carry their mechanism", "[chart][tongues]") {
   CHECK(curves.front().order == kNoOrder);
 }
 
+TEST_CASE("what damping does not change is computed once for all lines", "[chart][tongues]") {
+  // a triangle in 32 values, with 16 harmonics
+  Scene scene;
+  scene.pendulum.emplace();
+  scene.pendulum->length = 1.0;
+  scene.support.emplace();
+  scene.support->frequency = 12.0;
+  scene.support->waveform = Waveform::samples;
+  for (int i = 0; i < 32; ++i) scene.support->samples.push_back(0.05 * (1.0 - std::abs(i / 8.0 - 2.0)));
+  const TongueLine along{"support.frequency", 2.2, 16.0}, over{"pendulum.damping", 0.0, 0.5};
+  CurveOptions options{.tolerance = 1e-9, .chord = 2e-3, .resolution = 1e-5, .max_evaluations = 6000};
+  const auto curves = tongue_curves(scene, along, over, options);
+  CHECK(points_of(curves, 1).size() > 20);
+  CHECK(tips_of(curves).size() >= 1);
+  options.max_evaluations = 500;
+  CHECK_THROWS_AS(tongue_curves(scene, along, over, options), NumericalFailure);
+}
+
 TEST_CASE("tongue_curves refuses what makes no window", "[chart][tongues]") {
   const Scene scene = mathieu_scene(0.0);
   const TongueLine along{"mathieu.delta", 0.0, 1.0}, over{"mathieu.epsilon", 0.0, 1.0};
@@ -207,6 +225,7 @@ TEST_CASE("tongue_curves refuses what makes no window", "[chart][tongues]") {
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.chord = 1e-7}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.tolerance = 1.0}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.slices = 0}), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, over, {.max_evaluations = 0}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, {"mathieu.damping", -1.0, 0.0}), InvalidInput);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -43,8 +44,10 @@ struct CurveOptions {
   int slices = 16;           ///< steps of the second parameter that the search begins with, >= 1
   int system_steps = 250;    ///< see TongueOptions
   double resolution = 1e-7;  ///< see TongueOptions; edges that touch a line take long at 1e-9
-  int max_slices = std::numeric_limits<int>::max();  ///< lines for each tongue
-  int threads = 1;                                   ///< 0: one per core
+  /// Of all tongues together: margins of stability and, in proportion to their cost, which grows with the
+  /// order of the harmonics, edges of undamped tongues and the widths that narrow damped ones need.
+  std::int64_t max_evaluations = std::numeric_limits<std::int64_t>::max();
+  int threads = 1;  ///< 0: one per core
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -67,7 +70,7 @@ struct CurveOptions {
 ///
 /// Cost: that of tongues() for some 30 to 60 values of the second parameter. Throws InvalidInput as tongues()
 /// at both ends of `over`, and where only one of them has tongues with an index; NumericalFailure where
-/// max_slices are not enough.
+/// max_evaluations are not enough.
 std::vector<TongueCurve> tongue_curves(const Scene& scene, const TongueLine& along, const TongueLine& over,
                                        const CurveOptions& options = {});
 
