@@ -15,7 +15,7 @@ constexpr double kLargestShareOfRadius = 0.3;  // of the best radius: the terms 
 constexpr double kFixedCost = 40.0;            // of a step, in products: the inverse and the bounds
 constexpr double kLowestRate = 0.01;
 constexpr double kRatioOfRadii = 1.25;  // coarse: any radius gives a bound
-constexpr int kOrders = (kHighestTaylorOrder - kLowestTaylorOrder) / 2 + 1;
+constexpr int kTaylorOrders = (kHighestTaylorOrder - kLowestTaylorOrder) / 2 + 1;
 
 /// Largest absolute row sums of the parts of a periodic matrix.
 class Sizes {
@@ -49,15 +49,15 @@ struct Radius {
 };
 
 /// For each order p.
-std::array<Radius, kOrders> best_radii(const Sizes& stiffness, const Sizes& damping, double at_zero) {
-  std::array<Radius, kOrders> result;
+std::array<Radius, kTaylorOrders> best_radii(const Sizes& stiffness, const Sizes& damping, double at_zero) {
+  std::array<Radius, kTaylorOrders> result;
   const auto rate = [&](double r) {
     return std::max(std::sqrt(stiffness.at(r)) + damping.at(r), kLowestRate);
   };
   double radius = kHighestTaylorOrder / std::max(at_zero, kLowestRate), edge = rate(radius);
   while (radius * edge > 0.7 * kLowestTaylorOrder) {
     const double growth = radius / 6.0 * (at_zero + 4.0 * rate(0.5 * radius) + edge);  // Simpson's rule
-    for (int i = 0; i < kOrders; ++i) {
+    for (int i = 0; i < kTaylorOrders; ++i) {
       auto& best = result[static_cast<std::size_t>(i)];
       const double value = growth - (kLowestTaylorOrder + 2 * i + 1) * std::log(radius);
       if (value < best.least) best = {value, radius};
@@ -78,7 +78,7 @@ TaylorStepPlan plan_taylor_steps(const TaylorEquation& equation, int half_period
   const auto radii = best_radii(stiffness, damping, rate);
   TaylorStepPlan best;
   double lowest_cost = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kOrders; ++i) {
+  for (int i = 0; i < kTaylorOrders; ++i) {
     const int order = kLowestTaylorOrder + 2 * i;
     const auto [least, radius] = radii[static_cast<std::size_t>(i)];
     // safety n e^least (length/2n)^(p+1)/sqrt(2 pi (p+1)) = tolerance
