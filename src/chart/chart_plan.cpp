@@ -16,8 +16,8 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kStripCells = 65'536;           // some seconds of work for the slowest method
-constexpr std::size_t kSurrogateStripCells = 1 << 17;
+constexpr std::size_t kStripCells = 65'536;
+constexpr std::size_t kSurrogateStripCells = 98'304;  // four pieces of 4096 columns, for as many threads
 
 constexpr double kLeastSeconds = 0.01;  // point by point, of charts for which a surrogate is considered
 constexpr double kLeastGain = 2.0;      // more than the forecast can be wrong by
@@ -56,13 +56,13 @@ std::string refusal_by_cost(const SurrogateForecast& forecast, double with_surro
   return fmt::format("it would take {:.2g} s, point by point takes {:.2g} s", with_surrogate, point_by_point);
 }
 
-/// Method, forecasts and time of one thread.
 void set_strips(ChartPlan& plan, const ChartRequest& request, std::size_t cells) {
   plan.rows_per_strip = std::clamp<std::size_t>(cells / request.x.points, 1, request.y.points);
   plan.working_bytes = 8.0 * static_cast<double>(plan.rows_per_strip * request.x.points) *
                        static_cast<double>(request.layers.size() + 4);
 }
 
+/// Method, forecasts and time of one thread.
 void choose_method(ChartPlan& plan, const Scene& scene, const ChartRequest& request) {
   const bool asked = request.method == Method::surrogate, open = request.method == Method::automatic;
   const auto engine = asked ? Method::automatic : request.method;

@@ -18,6 +18,7 @@ using std::numbers::pi;
 constexpr std::size_t kTraceRows =
     8;  // of D at a time: the rows of a product that keeps its sums in registers
 constexpr std::size_t kFactorColumns = GridPiece::kTileColumns;  // of factors: as many as stay in the cache
+constexpr std::size_t kBendColumns = 480;                        // that share a bound of how D bends
 constexpr double kLeastGap = 0.01;  // from D to 2, beyond which D tells as much as the factors
 
 /// Whether D stays in the range of plain_cells.

@@ -11,7 +11,7 @@ namespace strutt {
 
 /// Some cells of a few rows of a chart that lie in one box.
 struct GridPiece {
-  static constexpr std::size_t kMostRows = 16, kMostColumns = 2160;
+  static constexpr std::size_t kMostRows = 12, kMostColumns = 2160;
   static constexpr std::size_t kTileColumns = 240;  ///< whole blocks of the tensor kernel
   std::size_t box = 0;
   std::size_t first_row = 0, rows = 0;

@@ -24,13 +24,15 @@ void TraceRuns::add(std::size_t count, double least_gap) {
   const std::size_t begin = last(), end = begin + count;
   std::array<TraceSide, kMostAdded / kBlock> sides;
   trace_sides(trace_ + begin, count, kBlock, least_gap, sides.data());
+  TraceSide before = side_before(begin, least_gap);
   for (std::size_t first = begin; first < end; first += kBlock) {
     const std::size_t next = std::min(end, first + kBlock);
     const TraceSide side = sides[(first - begin) / kBlock];
-    if (side == side_before(first, least_gap) && next < count_) {
+    if (side == before && side != TraceSide::near && next < count_) {
       append(next, side);
     } else {
       add_parts(next, least_gap);
+      before = side_before(next, least_gap);
     }
   }
 }

@@ -21,7 +21,7 @@ struct CellRun {
 class TraceRuns {
  public:
   static constexpr std::size_t kBlock = 48, kPart = 8;  ///< cells that are judged together
-  static constexpr std::size_t kMostAdded = 5 * kBlock;
+  static constexpr std::size_t kMostAdded = 10 * kBlock;
 
   /// A row of so many cells, D of which is at `trace`.
   void begin(const double* trace, std::size_t count);
