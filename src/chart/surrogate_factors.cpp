@@ -106,11 +106,12 @@ SurrogateCells::Count SurrogateCells::fill_row(const GridPiece& row, const doubl
   find_runs(row, trace, work);
   Count count;
   for (const CellRun& run : work.worker.runs.runs()) {
-    const bool near = run.side == TraceSide::near;
-    const std::size_t most = near ? kFactorColumns : GridPiece::kMostColumns;
-    for (std::size_t c = run.first; c < run.last; c += most) {
-      const GridPiece cells{row.box, row.first_row, 1, row.first_column + c, std::min(most, run.last - c)};
-      count += near ? fill_by_factors(cells, work) : fill_by_trace(cells, trace + c, work);
+    // cells that D cannot tell after all take their factors too: no more of them than there is room for
+    for (std::size_t c = run.first; c < run.last; c += kFactorColumns) {
+      const GridPiece cells{row.box, row.first_row, 1, row.first_column + c,
+                            std::min(kFactorColumns, run.last - c)};
+      count +=
+          run.side == TraceSide::near ? fill_by_factors(cells, work) : fill_by_trace(cells, trace + c, work);
     }
   }
   return count;

@@ -141,6 +141,18 @@ TEST_CASE("where the width changes along the line, the bound knows", "[chart][da
   CHECK(at(1.0 + 1e-6).margin > 0.0);
 }
 
+TEST_CASE("a tip beyond the undamped tongue is not passed off as found", "[chart][damping]") {
+  // along epsilon at delta = 0.3 tongue 1 stays open up to c = 1.720386, beyond its undamped upper edge
+  Scene scene = mathieu_scene(1.0);
+  scene.mathieu->delta = 0.3;
+  const auto rows = closing_damping(scene, {"mathieu.epsilon", 0.001, 9.0}, {.count = 2});
+  REQUIRE(!rows.empty());
+  CHECK(rows[0].tongue == 1);
+  CHECK(rows[0].outcome == Outcome::tolerance_not_reached);
+  CHECK(rows[0].damping <= 1.720387);
+  CHECK(rows[0].damping * (1.0 + rows[0].error) >= 1.720386);
+}
+
 TEST_CASE("the damping of the scene does not count, and what has none is refused", "[chart][damping]") {
   const TongueLine line{"mathieu.delta", 0.0, 2.0};
   const auto free = closing_damping(mathieu_scene(0.5), line),

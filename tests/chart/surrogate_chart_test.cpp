@@ -159,6 +159,38 @@ TEST_CASE("the discriminant alone is that among other layers", "[chart][surrogat
   }
 }
 
+TEST_CASE("on wide damped charts cells that the discriminant cannot tell take their factors",
+          "[chart][surrogate][stability_chart]") {
+  // runs of |D| > 2 over more cells than factors are held for, with cells beside the damped edge in them
+  Scene scene;
+  scene.mathieu = MathieuTable{.damping = 0.2};
+  ChartRequest request{.x = {.parameter = "mathieu.delta", .from = 0.23, .to = 0.28, .points = 601},
+                       .y = {.parameter = "mathieu.epsilon", .from = 0.15, .to = 0.3, .points = 240},
+                       .layers = {Layer::verdict, Layer::growth},
+                       .tolerance = 1e-4,
+                       .method = Method::surrogate,
+                       .threads = 1};
+  const std::size_t cells = request.x.points * request.y.points;
+  const auto values_of = [&] {
+    std::vector<std::vector<double>> values(2, std::vector<double>(cells));
+    const std::vector<std::span<double>> places(values.begin(), values.end());
+    compute_chart(scene, request, places);
+    return values;
+  };
+  const auto by_surrogate = values_of();
+  request.method = Method::propagator;
+  request.tolerance = 1e-12;
+  const auto point_by_point = values_of();
+  std::size_t wrong = 0;
+  double off = 0.0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    wrong += by_surrogate[0][c] != point_by_point[0][c] ? 1 : 0;
+    off = std::max(off, std::abs(by_surrogate[1][c] - point_by_point[1][c]));
+  }
+  CHECK(wrong == 0);
+  CHECK(off < 1e-3);
+}
+
 TEST_CASE("windings are counted where the angle between tongues jumps",
           "[chart][surrogate][stability_chart][ratchet]") {
   ChartRequest request = request_of(300, 200, 1e-7);

@@ -24,10 +24,12 @@ struct ClosingDamping {
 /// point, and its largest value by Brent's method; beside a maximum its error is that of the growth. Where it
 /// is smaller, the error is that of
 ///   c = 2 growth/T
-/// with the growth of the undamped tongue in its middle (narrow_tongue_growth): for tongues narrower than some
-/// 1e-5 of the distance to the next one. The worst error, between both, is about 1e-9; `outcome` is converged
-/// up to 1e-8 or the tolerance. No damping closes tongue 0. `options` as of tongues(), whose `count` counts
-/// tongue 0. Throws as tongues(), and for a line along the damping.
+/// with the growth of the undamped tongue in its middle (narrow_tongue_growth): for tongues narrower than
+/// some 1e-5 of the distance to the next one. The worst error, between both, is about 1e-9; `outcome` is
+/// converged up to 1e-8 or the tolerance. The tip is looked for between the undamped edges; where it lies
+/// beyond one of them, as it may in wide tongues for damping lowers the mean, `damping` is a lower bound,
+/// `error` infinite and `outcome` tolerance_not_reached. No damping closes tongue 0. `options` as of
+/// tongues(), whose `count` counts tongue 0. Throws as tongues(), and for a line along the damping.
 std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine& line,
                                             const TongueOptions& options = {});
 
