@@ -41,7 +41,7 @@ struct AllTasks {
   void* event;
 };
 
-using Range = tbb::blocked_range<std::size_t>;
+using Indices = tbb::blocked_range<std::size_t>;
 using Work = std::function<void(std::size_t first, std::size_t last, int slot)>;
 
 /// What TBB copies into its tasks. Nothing of the copy may be read under the eyes of the sanitizer before the
@@ -50,7 +50,7 @@ struct Body {
   const Work* work;
   void* event;
 
-  __attribute__((no_sanitize_thread)) void operator()(const Range& range) const {
+  __attribute__((no_sanitize_thread)) void operator()(const Indices& range) const {
     carry_out(*work, event, range.begin(), range.end());
   }
 
@@ -94,7 +94,7 @@ bool parallel_for(std::size_t count, const ParallelOptions& options,
     tbb::task_arena arena(threads);
     ends_before(&arena);
     const AllTasks all{&arena};
-    arena.execute([&] { tbb::parallel_for(Range(0, count), Body{&run, &arena}); });
+    arena.execute([&] { tbb::parallel_for(Indices(0, count), Body{&run, &arena}); });
   }
   return done == count;
 }

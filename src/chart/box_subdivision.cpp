@@ -10,8 +10,8 @@ namespace strutt {
 namespace {
 
 constexpr double kShareOfCells =
-    0.25;                     // the nodes of all boxes, tried ones included, as a share of the cells
-constexpr int kDeepest = 24;  // halvings from the whole chart to a box
+    0.25;                        // the nodes of all boxes, tried ones included, as a share of the cells
+constexpr int kDeepestBox = 24;  // halvings from the whole chart to a box
 constexpr std::size_t kMostBoxes = 4096;
 
 double parameter_value(const Axis& axis, double coordinate) {
@@ -82,7 +82,7 @@ bool subdivide(const Axis& x, const Axis& y, const BoxAttempt& attempt, const Bo
     nodes += static_cast<double>(build.nodes);
     if (build.outcome == BoxOutcome::cancelled) return false;
     const bool split = build.outcome == BoxOutcome::split_x || build.outcome == BoxOutcome::split_y;
-    if (split && depth < kDeepest && received + pending.size() < kMostBoxes) {
+    if (split && depth < kDeepestBox && received + pending.size() < kMostBoxes) {
       for (auto& half : halves(box, build.outcome == BoxOutcome::split_x ? 0 : 1))
         pending.push_back({std::move(half), depth + 1});
       continue;

@@ -17,10 +17,10 @@ constexpr double kFarBelowTolerance = 0x1p-10;
 constexpr double kBesideTip = 0.02;  // of the way to it
 
 /// Distance and middle of a pair.
-struct Pair {
+struct TonguePair {
   double over, square, middle, error;  ///< error: of the distance
 
-  Pair(const Slice& slice, std::size_t first, double resolution) : over(slice.over) {
+  TonguePair(const Slice& slice, std::size_t first, double resolution) : over(slice.over) {
     const double low = slice.edges[first].edge.position, high = slice.edges[first + 1].edge.position;
     square = (high - low) * (high - low);
     middle = std::midpoint(low, high);
@@ -72,8 +72,8 @@ Slice SliceSource::at(double over) {
 
 CurveTip find_tip(SliceSource& source, double none, const Slice& with, std::size_t pair) {
   const double finest = source.resolution() * (source.along().to - source.along().from);
-  Pair near(with, pair, finest);
-  std::optional<Pair> far;
+  TonguePair near(with, pair, finest);
+  std::optional<TonguePair> far;
   const double resolution = std::max(kTipResolution * (source.over().to - source.over().from),
                                      kFarBelowTolerance * source.tolerance());
   bool inner = true;  // next on the side of the pair
@@ -90,7 +90,7 @@ CurveTip find_tip(SliceSource& source, double none, const Slice& with, std::size
     const Slice slice = source.at(next);
     if (same_pattern(slice, with)) {
       far = near;
-      near = Pair(slice, pair, finest);
+      near = TonguePair(slice, pair, finest);
     } else {
       none = next;
     }

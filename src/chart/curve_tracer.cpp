@@ -8,8 +8,9 @@
 namespace strutt {
 namespace {
 
-constexpr int kDeepest = 18;          // halvings of a step for a chord
-constexpr double kApart = 0x1p-12;    // of the range: where two slices differ, they are brought so close
+constexpr int kMostHalvings = 18;  // halvings of a step for a chord
+constexpr double kBroughtTogether =
+    0x1p-12;                          // of the range: where two slices differ, they are brought so close
 constexpr double kSteep = 0x1p-40;    // the same if an edge leaves the window steeply
 constexpr double kSeveral = 0x1p-20;  // the same where several things happen at once: curves end there
 
@@ -114,8 +115,8 @@ void CurveTracer::advance(const Slice& a, const Slice& b, int depth) {
   if (!(b.over - a.over > 0x1p-50 * height)) return same ? append(b) : restart(b);
   if (options_.cancel != nullptr && *options_.cancel) return;
   const double apart = (b.over - a.over) / height;
-  if (!same && apart <= kApart && may_bend(a, b, apart)) return bend(a, b);
-  if (same && depth >= kDeepest) return append(b);
+  if (!same && apart <= kBroughtTogether && may_bend(a, b, apart)) return bend(a, b);
+  if (same && depth >= kMostHalvings) return append(b);
   const Slice middle = source_.at(std::midpoint(a.over, b.over));
   if (same && same_pattern(a, middle) && straight(a, middle, b)) {
     append(middle);

@@ -11,7 +11,7 @@
 namespace strutt {
 namespace {
 
-constexpr int kMostPieces = 200'000;
+constexpr int kMostEdgePieces = 200'000;
 
 class ZeroSearch {
  public:
@@ -86,7 +86,7 @@ class ZeroSearch {
   }
 
   void search(double a, double b) {
-    if (++pieces_ > kMostPieces)
+    if (++pieces_ > kMostEdgePieces)
       throw NumericalFailure("tongue " + std::to_string(function_.order()) +
                              ": no proof that all crossings are found");
     if (!(a < b) || (cancel_ != nullptr && *cancel_)) return;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kDegree = 8;
 constexpr double kShortest = 1e-9;  // of the whole
-constexpr int kMostPieces = 10'000;
+constexpr int kMostMarginPieces = 10'000;
 
 /// Coefficients of T_0 ... T_n, and a bound of what they leave out.
 struct Interpolant {
@@ -79,7 +79,7 @@ class PieceSearch {
 
   void search(double a, double b) {
     if (cancel_ != nullptr && *cancel_) return;
-    if (++pieces_ > kMostPieces)
+    if (++pieces_ > kMostMarginPieces)
       throw NumericalFailure("no proof that all edges are found: the margin is not smooth along the line");
     const Interpolant p = interpolant(a, b);
     if (p.zero() || p.definite()) return;  // zero: within its error all the way

@@ -24,7 +24,7 @@ bool is_at_rest(const LinearPeriodicSystem& system) {
 }
 
 /// T w/pi with bounds of their errors.
-struct HalfTurns {
+struct ModeTurns {
   std::vector<double> value, error;
 
   Margin excess(std::size_t i, std::size_t j, double k) const {
@@ -49,7 +49,7 @@ class RestingLine {
   RestingLine(const RestingLine&) = delete;
 
   /// Ascending; nothing where there is an equation of another kind.
-  std::optional<HalfTurns> half_turns(double p) {
+  std::optional<ModeTurns> half_turns(double p) {
     *value_ = p;
     const LinearModel model = linear_model(scene_);
     const auto* system = std::get_if<LinearPeriodicSystem>(&model);
@@ -58,7 +58,7 @@ class RestingLine {
         system->stiffness.mean, system->mass, Eigen::EigenvaluesOnly);
     if (modes.info() != Eigen::Success || !(modes.eigenvalues().minCoeff() > 0.0)) return std::nullopt;
     const auto errors = errors_of(modes.eigenvalues(), system->stiffness.mean, system->mass);
-    HalfTurns result;
+    ModeTurns result;
     for (Eigen::Index i = 0; i < errors.size(); ++i) {
       const double square = modes.eigenvalues()[i], turns = system->period * std::sqrt(square) / pi;
       result.value.push_back(turns);
@@ -73,20 +73,21 @@ class RestingLine {
 };
 
 /// Two modes and the number of half turns that both make at their resonance.
-struct Pair {
+struct ResonantPair {
   std::size_t i, j;
   double k;
 };
 
-std::optional<Pair> resonant_pair(const HalfTurns& turns, std::size_t i, std::size_t j, Mechanism mechanism) {
+std::optional<ResonantPair> resonant_pair(const ModeTurns& turns, std::size_t i, std::size_t j,
+                                          Mechanism mechanism) {
   if ((i != j) != (mechanism == Mechanism::complex_pair)) return std::nullopt;
   const double k = std::round(turns.excess(i, j, 0.0).value);
   const bool odd = std::fmod(k, 2.0) != 0.0;
   if (k < 1.0 || (i == j && odd != (mechanism == Mechanism::minus_one))) return std::nullopt;
-  return Pair{i, j, k};
+  return ResonantPair{i, j, k};
 }
 
-std::optional<CertainZero> resonance_of(RestingLine& line, const Pair& pair, double from, double to) {
+std::optional<CertainZero> resonance_of(RestingLine& line, const ResonantPair& pair, double from, double to) {
   const auto unknown =
       line.half_turns(from)->excess(pair.i, pair.j, pair.k).value;  // on neither side for certain
   const auto excess = [&](double p) {

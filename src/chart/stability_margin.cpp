@@ -31,7 +31,7 @@ bool is_valid(const Scene& scene, const std::string& path, double value) {
 }
 
 /// What a parameter may be.
-struct Range {
+struct Allowed {
   double low, high;
   bool positive;  ///< 0 is not allowed: the way down is one of factors
 };
@@ -46,7 +46,7 @@ double valid_end(const Scene& scene, const std::string& path, double inside, dou
   return inside;
 }
 
-Range range_of(const Scene& scene, const std::string& path, double value, double reach) {
+Allowed range_of(const Scene& scene, const std::string& path, double value, double reach) {
   const double size = value == 0.0 ? 1.0 : std::abs(value);
   const bool mass = path.starts_with("linear.mass.");  // singular at 0
   const bool positive = value != 0.0 && (mass || !is_valid(scene, path, 0.0));
@@ -112,7 +112,7 @@ ParameterMargin margin_along(const Scene& scene, const std::string& path, double
   const double value = parameter(scene, path);
   ParameterMargin result = inert(path, value, sign);
   if (!moves_stability(scene, path)) return result;
-  const Range range = range_of(scene, path, value, options.reach);
+  const Allowed range = range_of(scene, path, value, options.reach);
   const IntervalOptions intervals{.tolerance = options.tolerance, .cancel = options.cancel};
   const auto below = nearest_edge(scene, path, value, range.low, range.positive, intervals);
   const auto above = nearest_edge(scene, path, value, range.high, range.positive, intervals);

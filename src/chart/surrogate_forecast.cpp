@@ -21,9 +21,9 @@ constexpr double kTables = 5.0;        // tolerances for which plans are made: o
 constexpr double kOverEdges = 1.3;     // sums of |c| over both directions against those along an edge
 
 /// Samples along an edge of a box: the coordinate `axis` runs.
-class Edge {
+class BoxEdge {
  public:
-  Edge(const SurrogateBox& box, std::size_t axis, double other)
+  BoxEdge(const SurrogateBox& box, std::size_t axis, double other)
       : axis_(axis), low_(box.low[axis]), high_(box.high[axis]), other_(other) {}
 
   std::size_t axis() const { return axis_; }
@@ -61,8 +61,8 @@ class Edges {
   Edges(SurrogateBox& box, const Sampling& sampling, const std::array<double, 2>& coordinate_error)
       : box_(box),
         sampling_(sampling),
-        edges_{Edge(box, 0, box.low[1]), Edge(box, 0, box.high[1]), Edge(box, 1, box.low[0]),
-               Edge(box, 1, box.high[0])} {
+        edges_{BoxEdge(box, 0, box.low[1]), BoxEdge(box, 0, box.high[1]), BoxEdge(box, 1, box.low[0]),
+               BoxEdge(box, 1, box.high[0])} {
     for (const std::size_t i : {0, 1})
       eta_[i] = 5.0 * kUnit + 2.0 * coordinate_error[i] / (box.high[i] - box.low[i]);
   }
@@ -156,7 +156,7 @@ class Edges {
 
   SurrogateBox& box_;
   const Sampling& sampling_;
-  std::array<Edge, 4> edges_;
+  std::array<BoxEdge, 4> edges_;
   std::array<double, 2> eta_{};
   std::vector<PropagatorSample> samples_;
   std::vector<std::vector<Eigen::VectorXd>> coefficients_;  // entry by entry, edge by edge

@@ -10,7 +10,7 @@
 namespace strutt {
 namespace {
 
-constexpr int kGrowthSteps = 32;
+constexpr int kSystemGrowthSteps = 32;
 
 Mechanism mechanism_of(std::complex<double> leading) {
   if (leading.imag() != 0.0) return Mechanism::complex_pair;
@@ -58,7 +58,7 @@ std::vector<TongueEdge> system_tongues(MonodromyEngine& engine, const Scene& sce
     TongueEdge &low = edges[i - 1], &high = edges[i];
     add_width(low, high, changes[i - 1].error + changes[i].error);
     if (!options.growth) continue;
-    const GrowthPeak peak = largest_growth(line, low.position, high.position, kGrowthSteps);
+    const GrowthPeak peak = largest_growth(line, low.position, high.position, kSystemGrowthSteps);
     low.growth = high.growth = peak.growth;
     low.growth_position = high.growth_position = peak.position;
   }

@@ -13,8 +13,8 @@
 namespace strutt {
 namespace {
 
-constexpr std::size_t kSamples = 2000;  // of systems, in each of the two sets
-constexpr double kFinest = 1e-9;        // step of the pattern search, of the range
+constexpr std::size_t kSystemSamples = 2000;  // of systems, in each of the two sets
+constexpr double kFinest = 1e-9;              // step of the pattern search, of the range
 
 void validate_box(const Scene& scene, const std::vector<ParameterRange>& box) {
   const auto count = static_cast<double>(box.size());
@@ -150,7 +150,7 @@ double radical_inverse(std::size_t index, std::size_t base) {
 WorstGrowth sampled(BoxScene& scene, const std::vector<ParameterRange>& box,
                     const WorstGrowthOptions& options) {
   constexpr std::size_t kPrimes[kMostUncertain] = {2, 3, 5, 7, 11, 13, 17, 19};
-  const std::size_t samples = std::min(kSamples, options.evaluations / 4);
+  const std::size_t samples = std::min(kSystemSamples, options.evaluations / 4);
   std::vector<Best> sets(2, Best(scene, box));
   for (std::size_t set = 0; set < 2; ++set) {
     if (set == 0) sets[set].try_corners();

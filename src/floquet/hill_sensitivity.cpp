@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLogLarge = 200.0;
+constexpr double kLogOfLargeD = 200.0;
 
 /// What a parameter does to Y'' + W Y = 0 and to h = cT/2.
 struct UndampedDerivative {
@@ -173,7 +173,7 @@ class HillSlopes {
 
   /// sqrt|D^2 - 4| 2^-exponent.
   double root() const {
-    if (gap_.log_abs > kLogLarge) return std::abs(v_.n.trace());
+    if (gap_.log_abs > kLogOfLargeD) return std::abs(v_.n.trace());
     const double size = std::sqrt(std::abs(gap_.gap) * (2.0 + std::exp(gap_.log_abs)));
     return std::ldexp(size, -static_cast<int>(v_.exponent));
   }

@@ -36,15 +36,15 @@ Margin real_margin(double mantissa, double error, long exponent, double h) {
 }
 
 /// A real number with a bound.
-struct Bounded {
+struct BoundedSum {
   double value, error;
 };
-Bounded sum(Bounded x, Bounded y) {
+BoundedSum sum(BoundedSum x, BoundedSum y) {
   return {x.value + y.value, x.error + y.error + kUnit * std::abs(x.value + y.value)};
 }
-Bounded difference(Bounded x, Bounded y) { return sum(x, {-y.value, y.error}); }
-Bounded half(Bounded x) { return {0.5 * x.value, 0.5 * x.error}; }
-Bounded product(Bounded x, Bounded y) {
+BoundedSum difference(BoundedSum x, BoundedSum y) { return sum(x, {-y.value, y.error}); }
+BoundedSum half(BoundedSum x) { return {0.5 * x.value, 0.5 * x.error}; }
+BoundedSum product(BoundedSum x, BoundedSum y) {
   const double value = x.value * y.value;
   return {value, std::abs(x.value) * y.error + std::abs(y.value) * x.error + x.error * y.error +
                      kUnit * std::abs(value)};
@@ -86,16 +86,16 @@ SystemStability stability_of(std::span<const MultiplierSum> sums, bool collision
 
 SystemStability reciprocal_stability(const SymplecticBlocks& n, long exponent, double half_damping) {
   const auto entry = [](const Eigen::Matrix2d& m, const Eigen::Matrix2d& error, int i, int j) {
-    return Bounded{m(i, j), error(i, j)};
+    return BoundedSum{m(i, j), error(i, j)};
   };
   const auto p = [&](int i, int j) { return sum(entry(n.a, n.a_error, i, j), entry(n.d, n.d_error, j, i)); };
   const auto skew = [&](const Eigen::Matrix2d& m, const Eigen::Matrix2d& error) {
     return difference(entry(m, error, 0, 1), entry(m, error, 1, 0));
   };
-  const Bounded p11 = p(0, 0), p22 = p(1, 1), middle = half(sum(p11, p22)),
-                apart = half(difference(p11, p22));
-  const Bounded delta = difference(sum(product(apart, apart), product(p(0, 1), p(1, 0))),
-                                   product(skew(n.b, n.b_error), skew(n.c, n.c_error)));
+  const BoundedSum p11 = p(0, 0), p22 = p(1, 1), middle = half(sum(p11, p22)),
+                   apart = half(difference(p11, p22));
+  const BoundedSum delta = difference(sum(product(apart, apart), product(p(0, 1), p(1, 0))),
+                                      product(skew(n.b, n.b_error), skew(n.c, n.c_error)));
   const double root = std::sqrt(std::abs(delta.value));
   const bool collision = !(std::abs(delta.value) > delta.error);
   // |sqrt(x) - sqrt(y)| = |x - y|/(sqrt(x) + sqrt(y)), and at most sqrt(|x - y|)

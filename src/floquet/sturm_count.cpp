@@ -11,7 +11,7 @@ namespace {
 
 // Two lanes fill a register of every 64-bit processor. The pairs are independent of each other, so that their
 // divisions overlap.
-using Pair [[gnu::vector_size(16)]] = double;
+using TwoDoubles [[gnu::vector_size(16)]] = double;
 using PairCount [[gnu::vector_size(16)]] = std::int64_t;
 constexpr std::size_t kPairs = kSturmLanes / 2;
 
@@ -19,7 +19,7 @@ constexpr double kMargin = 1e-12;  // far above the roundings of one row, far be
 
 /// The pivots of one row, and the numbers of negative ones so far.
 struct Elimination {
-  std::array<Pair, kPairs> point, pivot;
+  std::array<TwoDoubles, kPairs> point, pivot;
   std::array<PairCount, kPairs> negative{};
 
   explicit Elimination(const SturmPoints& points) {
@@ -50,16 +50,16 @@ struct Elimination {
 
 /// Pivots p and the sum of p'/p, the logarithmic derivative of the determinant by the point.
 struct Derivation {
-  std::array<Pair, kPairs> point, inverse, share, sum{};  // 1/p, p'/p and its sum
-  std::array<Pair, kPairs> fall;                          // what the eigenvector has fallen by in the tail
+  std::array<TwoDoubles, kPairs> point, inverse, share, sum{};  // 1/p, p'/p and its sum
+  std::array<TwoDoubles, kPairs> fall;  // what the eigenvector has fallen by in the tail
   std::array<PairCount, kPairs> negative{}, active;
 
   Derivation(const SturmPoints& points, double diagonal) {
     std::memcpy(point.data(), points.data(), sizeof(points));
     for (std::size_t k = 0; k < kPairs; ++k) {
-      fall[k] = Pair{1.0, 1.0};
+      fall[k] = TwoDoubles{1.0, 1.0};
       active[k] = PairCount{-1, -1};
-      add(k, diagonal - point[k], Pair{-1.0, -1.0});
+      add(k, diagonal - point[k], TwoDoubles{-1.0, -1.0});
     }
   }
   void step(double diagonal, double coupling) {
@@ -71,7 +71,7 @@ struct Derivation {
   bool tail_step(double diagonal, double coupling, double q) {
     PairCount any{};
     for (std::size_t k = 0; k < kPairs; ++k) {
-      const Pair sum_before = sum[k], above = diagonal - point[k];
+      const TwoDoubles sum_before = sum[k], above = diagonal - point[k];
       const PairCount negative_before = negative[k];
       advance(k, diagonal, coupling);
       sum[k] = active[k] ? sum[k] : sum_before;
@@ -85,10 +85,10 @@ struct Derivation {
 
  private:
   void advance(std::size_t k, double diagonal, double coupling) {
-    const Pair ratio = coupling * inverse[k];
+    const TwoDoubles ratio = coupling * inverse[k];
     add(k, (diagonal - point[k]) - ratio, ratio * share[k] - 1.0);
   }
-  void add(std::size_t k, Pair pivot, Pair derivative) {
+  void add(std::size_t k, TwoDoubles pivot, TwoDoubles derivative) {
     negative[k] -= pivot < 0.0;
     inverse[k] = 1.0 / pivot;
     share[k] = derivative * inverse[k];

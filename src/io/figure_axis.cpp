@@ -8,7 +8,7 @@
 namespace strutt {
 namespace {
 
-constexpr int kMostTicks = 9;
+constexpr int kMostAxisTicks = 9;
 constexpr int kMostWideTicks = 4;
 constexpr std::size_t kWideLabel = 9;
 constexpr double kShortDecades = 3.1;
@@ -49,7 +49,7 @@ std::vector<Tick> linear_ticks_at_most(const Axis& axis, int most) {
 }
 
 std::vector<Tick> linear_ticks(const Axis& axis) {
-  auto ticks = linear_ticks_at_most(axis, kMostTicks);
+  auto ticks = linear_ticks_at_most(axis, kMostAxisTicks);
   const bool wide =
       std::any_of(ticks.begin(), ticks.end(), [](const Tick& t) { return t.label.size() > kWideLabel; });
   return wide ? linear_ticks_at_most(axis, kMostWideTicks) : ticks;
@@ -60,7 +60,7 @@ std::vector<Tick> logarithmic_ticks(const Axis& axis) {
   const double from = std::log10(std::abs(axis.from)), to = std::log10(std::abs(axis.to));
   const double low = std::min(from, to), high = std::max(from, to);
   const bool short_range = high - low < kShortDecades;
-  const int every = std::max(1, static_cast<int>(std::ceil((high - low) / kMostTicks)));
+  const int every = std::max(1, static_cast<int>(std::ceil((high - low) / kMostAxisTicks)));
   std::vector<Tick> ticks;
   for (int decade = static_cast<int>(std::floor(low)); decade <= high; ++decade) {
     for (int lead = 1; lead <= 9; ++lead) {

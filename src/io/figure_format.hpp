@@ -17,6 +17,7 @@ std::string gnuplot_terminal(FigureFormat format);
 
 /// The file gnuplot draws into, in its directory, and the most bytes of it that are taken.
 inline constexpr const char* kPictureFile = "picture";
+inline constexpr double kPictureWidth = 1600.0, kPictureHeight = 1100.0;  ///< pixels
 inline constexpr std::size_t kLargestPicture = std::size_t{1} << 30;
 
 }  // namespace strutt

@@ -12,7 +12,6 @@
 namespace strutt {
 namespace {
 
-constexpr double kPictureWidth = 1600.0, kPictureHeight = 1100.0;
 constexpr double kLeft = 0.095, kRight = 0.855, kBottom = 0.185, kTop = 0.935;
 constexpr int kPaletteSteps = 64;
 constexpr const char* kUnstableKeyColour = "#F2B13C";

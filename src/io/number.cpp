@@ -1,12 +1,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/text.hpp"
 #include "strutt/io/table.hpp"
 
 namespace strutt {
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// What the grammar [+-] digits [. digits] [e [+-] digits] finds in a text.
 struct Decimal {

@@ -15,9 +15,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kPictureWidth = 1600.0, kPictureHeight = 1100.0;
-constexpr double kLeastLeft = 0.085, kBottom = 0.17, kBottomWithoutKey = 0.11, kTop = 0.935;
-constexpr double kRight = 0.975, kRightOfBar = 0.865;
+constexpr double kLeastLeft = 0.085, kBottomOfField = 0.17, kBottomWithoutKey = 0.11, kTopOfField = 0.935;
+constexpr double kRightOfField = 0.975, kRightOfBar = 0.865;
 constexpr double kHeadroom = 1.06;
 constexpr int kArrowColumns = 33, kArrowRows = 21;
 constexpr double kArrowPixels = 17.0;
@@ -45,10 +44,12 @@ double largest_velocity(const std::vector<PhaseCurve>& curves, double alpha) {
   return kHeadroom * (largest > 0.0 ? largest : alpha);
 }
 
-double right(const std::vector<PhaseCurve>& curves) { return has_field(curves) ? kRight : kRightOfBar; }
+double right(const std::vector<PhaseCurve>& curves) {
+  return has_field(curves) ? kRightOfField : kRightOfBar;
+}
 
 double bottom(const std::vector<PhaseCurve>& curves) {
-  return has_field(curves) ? kBottom : kBottomWithoutKey;
+  return has_field(curves) ? kBottomOfField : kBottomWithoutKey;
 }
 
 constexpr const char* kMinus = "\u2212";
@@ -114,8 +115,8 @@ std::string frame(const std::vector<PhaseCurve>& curves, const PortraitDescripti
       "set xlabel 'angle \u03C6 from the hanging position [rad]'\nset ylabel \"angular velocity "
       "\u03C6'{}\"\n",
       gnuplot_terminal(format), kPictureFile, gnuplot_string(d.title), left(largest), right(curves),
-      bottom(curves), kTop, (left(largest) + right(curves)) / 2.0, -d.cells, d.cells, -largest, largest,
-      angle_ticks(d.cells), tick_list(velocity_ticks(largest), largest),
+      bottom(curves), kTopOfField, (left(largest) + right(curves)) / 2.0, -d.cells, d.cells, -largest,
+      largest, angle_ticks(d.cells), tick_list(velocity_ticks(largest), largest),
       d.has_units ? " [rad/s]" : "/\u03B1");
 }
 
@@ -127,7 +128,7 @@ std::string colour_bar() {
       "set minussign\nset cbtics out nomirror\nset cblabel 'separatrix excess C_1 \u2212 2 of the start' "
       "offset 1,0\n"
       "set colorbox user origin screen {},{} size screen 0.02,{}\n",
-      kRightOfBar + 0.02, kBottomWithoutKey, kTop - kBottomWithoutKey);
+      kRightOfBar + 0.02, kBottomWithoutKey, kTopOfField - kBottomWithoutKey);
 }
 
 /// Few dots are drawn larger, so that they are seen.
@@ -181,8 +182,8 @@ std::string portrait_data(const std::vector<PhaseCurve>& curves, CurveKind kind)
 std::string arrow_data(const std::vector<PhaseCurve>& curves, const PortraitDescription& d) {
   if (!has_field(curves)) return {};
   const double largest = largest_velocity(curves, d.alpha);
-  const double per_x = 2.0 * d.cells / ((kRight - left(largest)) * kPictureWidth);  // pi a pixel
-  const double per_y = 2.0 * largest / ((kTop - kBottom) * kPictureHeight);         // rad/s a pixel
+  const double per_x = 2.0 * d.cells / ((kRightOfField - left(largest)) * kPictureWidth);  // pi a pixel
+  const double per_y = 2.0 * largest / ((kTopOfField - kBottomOfField) * kPictureHeight);  // rad/s a pixel
   std::string text;
   for (int j = 0; j < kArrowRows; ++j) {
     for (int i = 0; i < kArrowColumns; ++i) {

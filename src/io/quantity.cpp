@@ -22,7 +22,7 @@ struct Unit {
   long double factor = 1.0L;
 };
 
-constexpr long double kPi = std::numbers::pi_v<long double>;
+constexpr long double kLongPi = std::numbers::pi_v<long double>;
 
 constexpr std::array kUnits{
     Unit{"m", "m"},
@@ -35,19 +35,19 @@ constexpr std::array kUnits{
     Unit{"ft", "m", 0, 0.3048L},
     Unit{"rad/s", "rad/s"},
     Unit{"krad/s", "rad/s", 3},
-    Unit{"Hz", "rad/s", 0, 2 * kPi},
-    Unit{"kHz", "rad/s", 3, 2 * kPi},
-    Unit{"mHz", "rad/s", -3, 2 * kPi},
-    Unit{"rpm", "rad/s", 0, kPi / 30},
-    Unit{"1/min", "rad/s", 0, kPi / 30},
-    Unit{"deg/s", "rad/s", 0, kPi / 180},
+    Unit{"Hz", "rad/s", 0, 2 * kLongPi},
+    Unit{"kHz", "rad/s", 3, 2 * kLongPi},
+    Unit{"mHz", "rad/s", -3, 2 * kLongPi},
+    Unit{"rpm", "rad/s", 0, kLongPi / 30},
+    Unit{"1/min", "rad/s", 0, kLongPi / 30},
+    Unit{"deg/s", "rad/s", 0, kLongPi / 180},
     Unit{"1/s", "1/s"},
     Unit{"s^-1", "1/s"},
     Unit{"1/ms", "1/s", 3},
     Unit{"rad", "rad"},
     Unit{"mrad", "rad", -3},
-    Unit{"deg", "rad", 0, kPi / 180},
-    Unit{"\u00B0", "rad", 0, kPi / 180},
+    Unit{"deg", "rad", 0, kLongPi / 180},
+    Unit{"\u00B0", "rad", 0, kLongPi / 180},
     Unit{"kg", "kg"},
     Unit{"g", "kg", -3},
     Unit{"mg", "kg", -6},

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* kFormat = "strutt surrogate";
-constexpr int kVersion = 1;
+constexpr int kSurrogateFormat = 1;
 
 json to_json(const Axis& axis) {
   return {{"parameter", axis.parameter},
@@ -100,8 +100,8 @@ SurrogateReport report_from(const json& j) {
 }
 
 Surrogate surrogate_from(const json& file, const std::string& name) {
-  if (file.at("format") != kFormat || file.at("version") != kVersion)
-    throw InvalidInput("not a surrogate of version " + std::to_string(kVersion));
+  if (file.at("format") != kFormat || file.at("version") != kSurrogateFormat)
+    throw InvalidInput("not a surrogate of version " + std::to_string(kSurrogateFormat));
   SurrogateData data;
   data.scene = parse_scene(file.at("scene").get<std::string>(), name).scene;
   data.x = axis_from(file.at("x"));
@@ -122,7 +122,7 @@ void save_surrogate(const std::filesystem::path& path, const Surrogate& surrogat
   json boxes = json::array();
   for (const auto& box : data.boxes) boxes.push_back(to_json(box));
   const json file{{"format", kFormat},
-                  {"version", kVersion},
+                  {"version", kSurrogateFormat},
                   {"provenance", json::parse(json_text(provenance))},
                   {"scene", to_toml({.file = "", .scene = data.scene, .chart = {}})},
                   {"x", to_json(data.x)},

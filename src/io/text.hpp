@@ -28,6 +28,8 @@ struct TextProblem {
 /// Looks for bytes that are not UTF-8 and for control characters other than tab, LF and CR before LF.
 TextProblem find_text_problem(std::string_view text);
 
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// Drops a UTF-8 byte order mark.
 std::string_view without_byte_order_mark(std::string_view text);
 

@@ -1,13 +1,12 @@
 #include "io/toml_source.hpp"
 
+#include "io/text.hpp"
 #include "strutt/io/table.hpp"
 
 namespace strutt {
 namespace {
 
 constexpr std::size_t kSafeIntegerDigits = 18;
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_word(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '-' ||

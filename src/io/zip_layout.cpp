@@ -11,8 +11,8 @@ constexpr std::uint32_t kCentralSignature = 0x02014B50;
 constexpr std::uint32_t kEndSignature = 0x06054B50;
 constexpr std::uint32_t kEnd64Signature = 0x06064B50;
 constexpr std::uint32_t kLocator64Signature = 0x07064B50;
-constexpr std::uint16_t kVersion = 20;
-constexpr std::uint16_t kVersion64 = 45;
+constexpr std::uint16_t kZipVersion = 20;
+constexpr std::uint16_t kZipVersion64 = 45;
 constexpr std::uint16_t kMadeByUnix = 3 << 8;
 constexpr std::uint16_t kUtf8Name = 1 << 11;
 constexpr std::uint16_t kExtra64 = 1;
@@ -58,7 +58,7 @@ std::string ZipLayout::local_header(std::size_t member, std::uint32_t crc) const
   const bool large = is_large(m.size);
   const std::uint32_t size = large ? 0xFFFFFFFF : static_cast<std::uint32_t>(m.size);
   std::string out;
-  put_all(out, kLocalSignature, large ? kVersion64 : kVersion, kUtf8Name, std::uint16_t{0}, kMidnight,
+  put_all(out, kLocalSignature, large ? kZipVersion64 : kZipVersion, kUtf8Name, std::uint16_t{0}, kMidnight,
           kFirstOf1980, crc, size, size, short_of(m.name.size()), short_of(large ? kLocalExtraSize : 0));
   out += m.name;
   if (large) put_all(out, kExtra64, std::uint16_t{16}, m.size, m.size);
@@ -72,7 +72,7 @@ std::string ZipLayout::directory_entry(std::size_t member, std::uint32_t crc) co
   if (is_large(m.size)) put_all(extra, m.size, m.size);
   if (is_large(offset)) put(extra, offset);
   const bool large = !extra.empty();
-  const std::uint16_t version = large ? kVersion64 : kVersion;
+  const std::uint16_t version = large ? kZipVersion64 : kZipVersion;
   const std::uint32_t size = is_large(m.size) ? 0xFFFFFFFF : static_cast<std::uint32_t>(m.size);
   std::string out;
   put_all(out, kCentralSignature, static_cast<std::uint16_t>(kMadeByUnix | version), version, kUtf8Name,
@@ -94,8 +94,8 @@ std::string ZipLayout::end_records(std::uint64_t directory_size) const {
   std::string out;
   if (large) {
     constexpr std::uint64_t rest_of_record = 44;
-    put_all(out, kEnd64Signature, rest_of_record, static_cast<std::uint16_t>(kMadeByUnix | kVersion64),
-            kVersion64, std::uint32_t{0}, std::uint32_t{0}, entries, entries, directory_size,
+    put_all(out, kEnd64Signature, rest_of_record, static_cast<std::uint16_t>(kMadeByUnix | kZipVersion64),
+            kZipVersion64, std::uint32_t{0}, std::uint32_t{0}, entries, entries, directory_size,
             directory_offset_);
     put_all(out, kLocator64Signature, std::uint32_t{0}, directory_offset_ + directory_size, std::uint32_t{1});
   }
