@@ -1,6 +1,7 @@
 #include "strutt/integrate/hill_family.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "integrate/series_plan.hpp"
 #include "strutt/base/error.hpp"
@@ -10,7 +11,7 @@ namespace {
 
 // Lanes that are sorted at a time, which stay in the second level of the cache, and lanes that are integrated
 // at a time, which stay in the first with their results.
-constexpr std::size_t kChunk = 8192, kGroup = 512;
+constexpr std::size_t kChunk = 16384, kGroup = 512;
 constexpr long kMostStoredTerms = 1L << 22;  // 32 MB of tables
 
 }  // namespace
@@ -21,12 +22,12 @@ struct HillFamily::Workspace {
   detail::SeriesPlanner planner;
   std::vector<std::unique_ptr<HillSeries>> series;  // one per plan
   long stored_terms = 0;
-  // Of a chunk: class, plan (one more for those without) and tail of each lane,
+  // Of a chunk: class, plan (counted from 1; 0: none), tail and place of each lane,
   std::vector<std::int64_t> classes;
-  std::vector<std::size_t> plan;
+  std::vector<std::uint32_t> plan, place;
   std::vector<double> tail;
   // and sorted by plan: places in the batch, tails, means, and weights, function by function. Lanes of plan i
-  // are begin[i] ... begin[i + 1] - 1, in order; those without a plan come last.
+  // are begin[i] ... begin[i + 1] - 1, in order.
   std::vector<std::uint32_t> lanes, begin;
   std::vector<double> tails, mean, weights;
   HillPropagators result;
@@ -39,36 +40,38 @@ struct HillFamily::Workspace {
     plan.resize(count);
     tail.resize(count);
     planner.classify(batch, first, classes);
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
-    bool all = true;
     for (std::size_t l = 0; l < count; ++l) {
       const auto& choice = planner.choice(classes[l]);
-      plan[l] = choice.plan < 0 ? none : static_cast<std::size_t>(choice.plan);
+      plan[l] = static_cast<std::uint32_t>(choice.plan + 1);  // 0: none
       tail[l] = choice.tail;
-      all = all && choice.plan >= 0;
     }
     series.resize(planner.plans().size());
-    if (!all) std::ranges::replace(plan, none, series.size());
   }
 
   /// Counting sort.
   void sort_by_plan(const HillBatch& batch, std::size_t first, std::size_t count) {
     choose_plans(batch, first, count);
     begin.assign(series.size() + 2, 0);
-    for (const std::size_t p : plan) ++begin[p + 1];
-    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    for (const auto p : plan) ++begin[p + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    place.resize(count);
     lanes.resize(count);
+    auto next = begin;
+    for (std::size_t l = 0; l < count; ++l) {
+      place[l] = next[plan[l]]++;
+      lanes[place[l]] = static_cast<std::uint32_t>(first + l);
+    }
     tails.resize(count);
     mean.resize(count);
     weights.resize(count * basis.size());
-    auto next = begin;
-    for (std::size_t l = 0; l < count; ++l) {
-      const std::size_t place = next[plan[l]]++;
-      lanes[place] = static_cast<std::uint32_t>(first + l);
-      tails[place] = tail[l];
-      mean[place] = batch.mean[first + l];
-      for (std::size_t f = 0; f < basis.size(); ++f) weights[f * count + place] = batch.weights[f][first + l];
-    }
+    move_to_place(tail, tails.data());
+    move_to_place(batch.mean.subspan(first), mean.data());
+    for (std::size_t f = 0; f < basis.size(); ++f)
+      move_to_place(batch.weights[f].subspan(first), weights.data() + f * count);
+  }
+
+  void move_to_place(std::span<const double> values, double* sorted) const {
+    for (std::size_t l = 0; l < place.size(); ++l) sorted[place[l]] = values[l];
   }
 
   const HillSeries& series_of(std::size_t number) {
@@ -121,7 +124,7 @@ void HillFamily::propagate(const HillBatch& batch, const std::function<void(cons
     for (std::size_t plan = 0; plan + 1 < own.begin.size(); ++plan) {
       for (std::size_t place = own.begin[plan]; place < own.begin[plan + 1]; place += kGroup) {
         auto group = own.group(place, std::min<std::size_t>(kGroup, own.begin[plan + 1] - place));
-        if (plan < own.series.size()) own.integrate(plan, group);
+        if (plan > 0) own.integrate(plan - 1, group);
         receive(group);
       }
     }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <utility>
 
 #include "base/constants.hpp"
 #include "base/dispatch.hpp"
@@ -45,19 +46,24 @@ constexpr std::array<double, kCoshTerms> kCoshCoefficients = [] {
 }();
 constexpr double kSmallestClass = 1.0 / (1 << -kSmallestOctave);
 
-/// Memory for vector registers.
-template <typename T>
+/// Memory for vector registers, from one piece.
 class Workspace {
  public:
-  explicit Workspace(std::size_t count)
-      : data_(static_cast<T*>(::operator new((count + 1) * sizeof(T), std::align_val_t(64)))) {}
-  ~Workspace() { ::operator delete(data_, std::align_val_t(64)); }
+  explicit Workspace(std::size_t bytes)
+      : data_(::operator new(bytes, std::align_val_t(kAlignment))), next_(static_cast<std::byte*>(data_)) {}
+  ~Workspace() { ::operator delete(data_, std::align_val_t(kAlignment)); }
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
-  T* data() { return data_; }
+
+  template <typename T>
+  T* take(std::size_t count) {
+    return reinterpret_cast<T*>(std::exchange(next_, next_ + count * sizeof(T)));
+  }
 
  private:
-  T* data_;
+  static constexpr std::size_t kAlignment = 64;
+  void* data_;
+  std::byte* next_;
 };
 
 #define STRUTT_KERNEL "integrate/series_kernel.inc"
