@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/bracketed_zero.hpp"
 #include "base/constants.hpp"
 #include "chart/unstable_intervals.hpp"
 #include "strutt/base/error.hpp"
@@ -69,24 +70,26 @@ std::vector<EdgeSurface::Edge> bounding_edges(const Scene& scene, bool stable) {
 
 EdgeSurface::EdgeSurface(const Scene& scene, const std::vector<std::string>& parameters,
                          std::optional<Edge> edge, double margin_sign)
-    : scene_(scene), parameters_(parameters), edge_(edge), margin_sign_(margin_sign) {
-  for (const std::string& path : parameters_) {
-    pointers_.push_back(&parameter(scene_, path));
-    value_.push_back(*pointers_.back());
-  }
+    : scene_(scene),
+      parameters_(parameters),
+      value_(static_cast<Eigen::Index>(parameters.size())),
+      edge_(edge),
+      margin_sign_(margin_sign) {
+  for (const std::string& path : parameters_) pointers_.push_back(&parameter(scene_, path));
+  for (std::size_t i = 0; i < pointers_.size(); ++i) value_[static_cast<Eigen::Index>(i)] = *pointers_[i];
 }
 
-void EdgeSurface::set(const std::vector<double>& x) {
-  for (std::size_t i = 0; i < x.size(); ++i) *pointers_[i] = value_[i] * x[i];
+void EdgeSurface::set(const Eigen::VectorXd& x) {
+  const auto values = this->values(x);
+  for (std::size_t i = 0; i < values.size(); ++i) *pointers_[i] = values[i];
 }
 
-std::vector<double> EdgeSurface::values(const std::vector<double>& x) const {
-  std::vector<double> result(x.size());
-  std::ranges::transform(value_, x, result.begin(), std::multiplies<>());
-  return result;
+std::vector<double> EdgeSurface::values(const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd products = value_.cwiseProduct(x);
+  return {products.begin(), products.end()};
 }
 
-Margin EdgeSurface::at(const std::vector<double>& x) {
+Margin EdgeSurface::at(const Eigen::VectorXd& x) {
   set(x);
   try {
     validate(scene_);
@@ -101,7 +104,7 @@ Margin EdgeSurface::at(const std::vector<double>& x) {
   }
 }
 
-std::optional<EdgeSurface::Edge> EdgeSurface::behind_closed(const std::vector<double>& x) {
+std::optional<EdgeSurface::Edge> EdgeSurface::behind_closed(const Eigen::VectorXd& x) {
   if (!edge_ || edge_->tongue == 0) return std::nullopt;
   set(x);
   const auto w = std::get<HillEquation>(linear_model(scene_)).coefficient, v = w.plus(-w.mean());
@@ -113,7 +116,7 @@ std::optional<EdgeSurface::Edge> EdgeSurface::behind_closed(const std::vector<do
   return Edge{next, edge_->upper, edge_->sign};
 }
 
-std::optional<int> EdgeSurface::tongue(const std::vector<double>& x) {
+std::optional<int> EdgeSurface::tongue(const Eigen::VectorXd& x) {
   if (edge_) return edge_->tongue;
   set(x);
   const double winding = analyse(engine_, linear_model(scene_), sharpest()).winding;
@@ -121,56 +124,46 @@ std::optional<int> EdgeSurface::tongue(const std::vector<double>& x) {
   return static_cast<int>(std::lround(2.0 * winding));
 }
 
-std::vector<double> EdgeSurface::exact_gradient() {
-  std::vector<double> result;
+Eigen::VectorXd EdgeSurface::exact_gradient() {
+  Eigen::VectorXd result(value_.size());
   double error = 0.0;
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const Derivative rate = sensitivity(engine_, scene_, parameters_[i]).edge;
-    result.push_back(rate.value * value_[i]);
+  for (Eigen::Index i = 0; i < value_.size(); ++i) {
+    const Derivative rate = sensitivity(engine_, scene_, parameters_[static_cast<std::size_t>(i)]).edge;
+    result[i] = rate.value * value_[i];
     error += std::abs(rate.error * value_[i]);
   }
-  const double size = std::sqrt(std::inner_product(result.begin(), result.end(), result.begin(), 0.0));
-  if (!(error <= kSharp * size)) return {};
+  if (!(error <= kSharp * result.norm())) return {};
   return result;
 }
 
 /// How far the surface moves along the ray when one coordinate moves: F is not smooth where multipliers of
 /// systems collide, the surface is.
-std::vector<double> EdgeSurface::difference_gradient(const std::vector<double>& x,
-                                                     const std::vector<double>& ray) {
+Eigen::VectorXd EdgeSurface::difference_gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& ray) {
   constexpr double kStep = 1e-5;
-  const auto inside = [&](const std::vector<double>& at) { return this->at(at).value > 0.0; };
-  const auto moved = [&](std::size_t i, double step) {
-    std::vector<double> from = x;
+  const auto moved = [&](Eigen::Index i, double step) {
+    Eigen::VectorXd from = x;
     from[i] += step;
-    const auto along = [&](double s) {
-      std::vector<double> y = from;
-      for (std::size_t k = 0; k < y.size(); ++k) y[k] += s * ray[k];
-      return y;
-    };
-    double low = -8.0 * kStep, high = 8.0 * kStep;
-    for (int doubling = 0; doubling < 12 && !inside(along(low)); ++doubling) low *= 2.0;
-    for (int doubling = 0; doubling < 12 && inside(along(high)); ++doubling) high *= 2.0;
-    for (int halving = 0; halving < 40; ++halving)
-      (inside(along(0.5 * (low + high))) ? low : high) = 0.5 * (low + high);
-    return 0.5 * (low + high);
+    const auto value = [&](double s) { return at(from + s * ray).value; };
+    double low = -8.0 * kStep, high = 8.0 * kStep, at_low = value(low), at_high = value(high);
+    for (int doubling = 0; doubling < 12 && !(at_low > 0.0); ++doubling) at_low = value(low *= 2.0);
+    for (int doubling = 0; doubling < 12 && at_high > 0.0; ++doubling) at_high = value(high *= 2.0);
+    if (!(at_low > 0.0 && at_high < 0.0)) return at_low > 0.0 ? high : low;
+    const auto close = [&](double a, double b) { return b - a <= 1e-14; };
+    return bracketed_zero(value, low, high, at_low, at_high, close).middle();
   };
-  std::vector<double> result;
-  for (std::size_t i = 0; i < x.size(); ++i)
-    result.push_back((moved(i, kStep) - moved(i, -kStep)) / (2.0 * kStep));
+  Eigen::VectorXd result(x.size());
+  for (Eigen::Index i = 0; i < x.size(); ++i)
+    result[i] = (moved(i, kStep) - moved(i, -kStep)) / (2.0 * kStep);
   return result;
 }
 
-std::vector<double> EdgeSurface::normal(const std::vector<double>& x, const std::vector<double>& ray) {
+Eigen::VectorXd EdgeSurface::normal(const Eigen::VectorXd& x, const Eigen::VectorXd& ray) {
   set(x);
-  std::vector<double> gradient = exact_gradient();
-  if (gradient.empty()) gradient = difference_gradient(x, ray);
-  const double length =
-      std::sqrt(std::inner_product(gradient.begin(), gradient.end(), gradient.begin(), 0.0));
+  Eigen::VectorXd gradient = exact_gradient();
+  if (gradient.size() == 0) gradient = difference_gradient(x, ray);
+  const double length = gradient.norm();
   if (!(length > 0.0) || !std::isfinite(length)) return {};
-  const double along = std::inner_product(gradient.begin(), gradient.end(), ray.begin(), 0.0);
-  for (double& g : gradient) g /= std::copysign(length, along);
-  return gradient;
+  return gradient / std::copysign(length, gradient.dot(ray));
 }
 
 }  // namespace strutt

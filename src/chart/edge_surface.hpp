@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,27 +26,27 @@ class EdgeSurface {
   EdgeSurface(const EdgeSurface&) = delete;
 
   /// F with its error; NaN where there is no such scene.
-  Margin at(const std::vector<double>& x);
+  Margin at(const Eigen::VectorXd& x);
 
   /// The unit normal at a point of the surface, to the side on which F < 0 as seen along `ray`. Empty if it
   /// has none.
-  std::vector<double> normal(const std::vector<double>& x, const std::vector<double>& ray);
+  Eigen::VectorXd normal(const Eigen::VectorXd& x, const Eigen::VectorXd& ray);
 
-  std::vector<double> values(const std::vector<double>& x) const;
+  std::vector<double> values(const Eigen::VectorXd& x) const;
   /// At a point of the surface where the tongue is closed, so that nothing ends there: the edge behind it.
-  std::optional<Edge> behind_closed(const std::vector<double>& x);
-  std::optional<int> tongue(const std::vector<double>& x);
+  std::optional<Edge> behind_closed(const Eigen::VectorXd& x);
+  std::optional<int> tongue(const Eigen::VectorXd& x);
   Method method() const { return method_; }
 
  private:
-  void set(const std::vector<double>& x);
-  std::vector<double> exact_gradient();
-  std::vector<double> difference_gradient(const std::vector<double>& x, const std::vector<double>& ray);
+  void set(const Eigen::VectorXd& x);
+  Eigen::VectorXd exact_gradient();
+  Eigen::VectorXd difference_gradient(const Eigen::VectorXd& x, const Eigen::VectorXd& ray);
 
   Scene scene_;
   const std::vector<std::string>& parameters_;
   std::vector<double*> pointers_;
-  std::vector<double> value_;
+  Eigen::VectorXd value_;
   std::optional<Edge> edge_;
   double margin_sign_;
   MonodromyEngine engine_;

@@ -12,7 +12,7 @@ namespace strutt {
 namespace {
 
 constexpr int kTongueSamples = 16;  // of the growth across a tongue: what has fewer maxima is seen
-constexpr int kTurns = 30;    // five suffice
+constexpr int kTurns = 30;          // five suffice
 
 class WideTongue {
  public:

@@ -47,8 +47,7 @@ struct JointMargin {
   std::optional<int> tongue;
   std::vector<std::string> parameters;  ///< those that take part
   std::vector<double> edge;             ///< their values on the nearest edge; empty if there is none
-  double error =
-      0.0;  ///< of r: that of the edge along the ray, and r (1 - cos) of the angle between ray and normal
+  double error = 0.0;  ///< of r: that of the edge along the ray, and r tan^2 of its angle to the normal
   Method method = Method::fourier;
   Outcome outcome = Outcome::converged;
 };
@@ -74,10 +73,11 @@ std::vector<std::string> stability_parameters(const Scene& scene);
 /// Jointly, undamped with finitely many harmonics: the stable region of the design is bounded by two
 /// surfaces, F = mean(W) - e(V) = 0 with the upper edge e of the tongue below and the lower edge of that
 /// above (an unstable one: the two edges of its tongue). Elsewhere F is the margin. The nearest point of F =
-/// 0 has its ray along the normal: the direction is turned into the normal (sensitivity.hpp) as long as the
-/// ray becomes shorter, from each edge found along one parameter and from the gradient at the design. The
-/// result is an edge for certain; that no edge is nearer is not proved where the surface has several nearest
-/// points.
+/// 0 has its ray along the normal: the direction is turned into the normal (sensitivity.hpp), by BFGS, as
+/// long as the ray becomes shorter, from edges found along one parameter and from the gradient at the design.
+/// Then points with F <= 0 are looked for on the sphere of 0.999 times that length, among 128 pseudo-random
+/// directions and the axes and by descents of F from the best six, and the search begins again from each. The
+/// result is an edge for certain, and its error that of its distance; that no edge is nearer is not proved.
 ///
 /// Distance NaN, with outcome tolerance_not_reached: the search would pass more than kLargestTongue tongues
 /// of an undamped equation. A design on the edge (boundary, or unresolved) has the distance 0; unresolved:
