@@ -13,12 +13,13 @@ namespace strutt {
 namespace {
 
 constexpr int kRaySteps = 24;
-constexpr int kMostTurns = 60, kMostParts = 8;
+constexpr int kMostTurns = 200, kMostParts = 8;
 constexpr double kParallel =
     1e-16;  // squared angle between ray and normal, below which r is right to rounding
-constexpr double kHopeless = 30.0;    // times the squared angle: a ray becomes no shorter by more, of itself
-constexpr int kDirections = 128;      // spread over the sphere,
-constexpr std::size_t kDescents = 6;  // of which so many are followed
+constexpr double kHopeless = 30.0;     // times the squared angle: a ray becomes no shorter by more, of itself
+constexpr int kDirections = 512;       // spread over the sphere,
+constexpr std::size_t kDescents = 12;  // of which so many are followed
+constexpr double kApartCosine = 0.9;   // if they are so far from each other
 constexpr int kMostSphereTurns = 20;
 
 double squared_angle(const SpherePoint& ray) {
@@ -152,8 +153,15 @@ std::optional<Eigen::VectorXd> NearestPoint::outside(double distance) {
     if (!std::isnan(f)) starts.push_back({f, direction});
   }
   std::ranges::sort(starts, {}, &Start::value);
-  for (std::size_t k = 0; k < std::min(kDescents, starts.size()) && !cancelled(); ++k) {
-    const SpherePoint start = on_sphere(starts[k].direction, distance);
+  std::vector<Eigen::VectorXd> followed;
+  for (const Start& candidate : starts) {
+    const auto near = [&](const Eigen::VectorXd& other) {
+      return other.dot(candidate.direction) > kApartCosine;
+    };
+    if (followed.size() == kDescents || cancelled()) break;
+    if (std::ranges::any_of(followed, near)) continue;
+    followed.push_back(candidate.direction);
+    const SpherePoint start = on_sphere(candidate.direction, distance);
     const double slope = start.gradient.norm();
     const SpherePoint least = descend(
         start, slope > 0.0 ? 0.2 / slope : 1.0, kMostSphereTurns,

@@ -72,7 +72,7 @@ SpherePoint descend(SpherePoint best, double scale, int most, const Function& at
   for (int turn = 0; turn < most && best.gradient.size() > 0 && !done(best); ++turn) {
     const Eigen::VectorXd step = inverse.step(best);
     std::optional<SpherePoint> next;
-    for (double share = 1.0; share > 1e-4 && !next; share *= 0.25) {
+    for (double share = 1.0; share > 1e-8 && !next; share *= 0.25) {
       next = at((best.direction + share * step).normalized(), best);
       if (next && !better(*next)) next.reset();
     }

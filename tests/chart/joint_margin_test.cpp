@@ -108,6 +108,8 @@ TEST_CASE("no random search finds an edge nearer than the joint margin, which is
   const std::vector<Scene> designs{
       mathieu_scene(1.842, 1.241, 0.6),
       mathieu_scene(3.589, 1.151, 1.0),
+      mathieu_scene(4.560, 1.417, 0.6),
+      mathieu_scene(3.032, 0.196, 0.02),
       hill(3.833, 1.252, 1.181, 0.065, 1.0),
       hill(4.393, 3.614, 0.823, -0.590, 0.3),
       hill(3.974, 0.717, 1.250, -0.812, 0.1),  // unstable

@@ -11,20 +11,20 @@ namespace strutt {
 struct ClosingDamping {
   int tongue = 0;
   int crossing = 0;       ///< which time the line meets this tongue, from 0
-  double damping = 0.0;   ///< c of x'' + c x' + ...: with less, somewhere on the line the tongue is open
+  double damping = 0.0;   ///< c of x'' + c x' + ...: with less, somewhere there the tongue is open
   double error = 0.0;     ///< bound of the relative error of `damping`, as far as the growth is known
   double position = 0.0;  ///< where the tongue stays open longest: its tip, or an end of the line
   Method method = Method::propagator;
   Outcome outcome = Outcome::converged;
 };
 
-/// For each tongue n >= 1 both edges of which lie on the line: the largest c at which some point of the line
-/// is marginal in this tongue, whatever damping the scene has. With c the multipliers of the undamped Y'' +
-/// (W - (c/Omega)^2/4) Y = 0, whose winding is n/2, are divided by exp(cT/2); the point is marginal where
-/// growth = cT/2. From each maximum of the growth between the undamped edges, 15 points of which are looked
-/// at, two steps follow each other: to the place next to it where the tongue stands most more damping, which
-/// may lie beyond these edges, and to the damping that closes it there. Either squares the distance from the
-/// tip; the error is that of the margin. Where it is smaller, the error is that of
+/// For each crossing of a tongue n >= 1 with both edges on the line: the largest c at which some point of the
+/// line, next to it, is marginal in this tongue, whatever damping the scene has. With c the multipliers of
+/// the undamped Y'' + (W - (c/Omega)^2/4) Y = 0, whose winding is n/2, are divided by exp(cT/2); the point is
+/// marginal where growth = cT/2. From each maximum of the growth between the undamped edges, 15 points of
+/// which are looked at, two steps follow each other: to the place next to it where the tongue stands most
+/// more damping, which may lie beyond these edges, and to the damping that closes it there. Either squares
+/// the distance from the tip; the error is that of the margin. Where it is smaller, the error is that of
 ///   c = 2 growth/T
 /// with the growth of the undamped tongue in its middle (narrow_tongue_growth): for tongues narrower than
 /// some 1e-5 of the distance to the next one. The worst error, between both, is about 1e-9; `outcome` is

@@ -75,9 +75,10 @@ std::vector<std::string> stability_parameters(const Scene& scene);
 /// above (an unstable one: the two edges of its tongue). Elsewhere F is the margin. The nearest point of F =
 /// 0 has its ray along the normal: the direction is turned into the normal (sensitivity.hpp), by BFGS, as
 /// long as the ray becomes shorter, from edges found along one parameter and from the gradient at the design.
-/// Then points with F <= 0 are looked for on the sphere of 0.999 times that length, among 128 pseudo-random
-/// directions and the axes and by descents of F from the best six, and the search begins again from each. The
-/// result is an edge for certain, and its error that of its distance; that no edge is nearer is not proved.
+/// Then points with F <= 0 are looked for on the sphere of 0.999 times that length, among 512 pseudo-random
+/// directions and the axes and by descents of F from the best twelve that are apart, and the search begins
+/// again from each. The result is an edge for certain, and its error that of its distance; that no edge is
+/// nearer is not proved.
 ///
 /// Distance NaN, with outcome tolerance_not_reached: the search would pass more than kLargestTongue tongues
 /// of an undamped equation. A design on the edge (boundary, or unresolved) has the distance 0; unresolved:
