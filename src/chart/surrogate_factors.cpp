@@ -24,7 +24,7 @@ constexpr double kLeastGap = 0.01;  // from D to 2, beyond which D tells as much
 /// Whether D stays in the range of plain_cells.
 bool is_plain(const SurrogateBox& box) {
   double size = 0.0;
-  for (const auto& c : box.coefficients) size = std::max(size, c.cwiseAbs().sum());
+  for (const auto& c : box.coefficients) size += c.cwiseAbs().sum();
   const auto exponent = static_cast<double>(box.exponent);
   return std::abs(exponent) < 500.0 &&
          2.0 * (std::log(2.0 * size) + exponent * std::numbers::ln2) < kMostPlainLog;
@@ -127,7 +127,8 @@ void SurrogateCells::find_runs(const GridPiece& row, const double* trace, PieceW
   for (std::size_t column = 0; column < row.columns; column += TraceRuns::kMostAdded) {
     const GridPiece part{row.box, row.first_row, 1, row.first_column + column,
                          std::min(TraceRuns::kMostAdded, row.columns - column)};
-    runs.add(part.columns, std::max(kLeastGap, traces_.bend(part, 0) + 2.0 * *work.trace_bound));
+    // a bound that is not a number stays one: then D tells nothing
+    runs.add(part.columns, std::max(traces_.bend(part, 0) + 2.0 * *work.trace_bound, kLeastGap));
   }
 }
 
