@@ -180,6 +180,8 @@ std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest
     return tongue_curves(scene, x, y,
                          {.tolerance = 1e-9,
                           .chord = kOverlayChord,
+                          .log_along = request.x.scale == AxisScale::logarithmic,
+                          .log_over = request.y.scale == AxisScale::logarithmic,
                           .count = count,
                           .resolution = kOverlayResolution,
                           .max_evaluations = most_evaluations(scene, request),

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "chart/known_tongue.hpp"
+#include "chart/window_scale.hpp"
 #include "strutt/chart/tongue_curves.hpp"
 #include "strutt/floquet/monodromy.hpp"
 
@@ -31,6 +32,8 @@ class SliceSource {
       : scene_(scene),
         along_(along),
         over_(over),
+        along_scale_(along, options.log_along),
+        over_scale_(over, options.log_over),
         order_(order),
         options_(options),
         evaluations_(evaluations),
@@ -45,12 +48,15 @@ class SliceSource {
   const Scene& scene() const { return scene_; }
   const TongueLine& along() const { return along_; }
   const TongueLine& over() const { return over_; }
+  const WindowScale& along_scale() const { return along_scale_; }
+  const WindowScale& over_scale() const { return over_scale_; }
 
  private:
   MonodromyEngine engine_;
   Scene scene_;
   const TongueLine& along_;
   const TongueLine& over_;
+  WindowScale along_scale_, over_scale_;
   int order_;
   const CurveOptions& options_;
   Evaluations& evaluations_;

@@ -53,13 +53,12 @@ CurvePoint point_of(const TongueEdge& edge, double over) {
 }
 
 std::vector<TongueCurve> CurveTracer::curves() {
-  const TongueLine& over = source_.over();
-  Slice previous = source_.at(over.from);
+  Slice previous = source_.at(source_.over().from);
   restart(previous);
   turn_at_rest(previous, true);
   for (int j = 1; j <= options_.slices; ++j) {
     if (options_.cancel != nullptr && *options_.cancel) break;
-    Slice next = source_.at(std::lerp(over.from, over.to, static_cast<double>(j) / options_.slices));
+    Slice next = source_.at(source_.over_scale().at(static_cast<double>(j) / options_.slices));
     advance(previous, next, 0);
     previous = std::move(next);
   }
@@ -96,13 +95,12 @@ void CurveTracer::append(const Slice& slice) {
 /// Every edge in the middle is as close as wanted to the straight line between its neighbours, in units of
 /// the window.
 bool CurveTracer::straight(const Slice& a, const Slice& middle, const Slice& b) const {
-  const double height = source_.over().to - source_.over().from;
-  const double width = source_.along().to - source_.along().from;
+  const WindowScale &along = source_.along_scale(), &over = source_.over_scale();
   for (std::size_t i = 0; i < a.edges.size(); ++i) {
-    const double x = (b.edges[i].edge.position - a.edges[i].edge.position) / width;
-    const double y = (b.over - a.over) / height;
-    const double u = (middle.edges[i].edge.position - a.edges[i].edge.position) / width;
-    const double v = (middle.over - a.over) / height;
+    const double x = along.share(a.edges[i].edge.position, b.edges[i].edge.position);
+    const double y = over.share(a.over, b.over);
+    const double u = along.share(a.edges[i].edge.position, middle.edges[i].edge.position);
+    const double v = over.share(a.over, middle.over);
     if (!(std::abs(x * v - y * u) <= options_.chord * std::hypot(x, y))) return false;
   }
   return true;
@@ -110,14 +108,13 @@ bool CurveTracer::straight(const Slice& a, const Slice& middle, const Slice& b) 
 
 /// From slice a, where the active strands stand, to b.
 void CurveTracer::advance(const Slice& a, const Slice& b, int depth) {
-  const double height = source_.over().to - source_.over().from;
   const bool same = same_pattern(a, b);
-  if (!(b.over - a.over > 0x1p-50 * height)) return same ? append(b) : restart(b);
+  const double apart = source_.over_scale().share(a.over, b.over);
+  if (!(apart > 0x1p-50)) return same ? append(b) : restart(b);
   if (options_.cancel != nullptr && *options_.cancel) return;
-  const double apart = (b.over - a.over) / height;
   if (!same && apart <= kBroughtTogether && may_bend(a, b, apart)) return bend(a, b);
   if (same && depth >= kMostHalvings) return append(b);
-  const Slice middle = source_.at(std::midpoint(a.over, b.over));
+  const Slice middle = source_.at(source_.over_scale().middle(a.over, b.over));
   if (same && same_pattern(a, middle) && straight(a, middle, b)) {
     append(middle);
     append(b);
@@ -139,10 +136,9 @@ bool CurveTracer::may_bend(const Slice& a, const Slice& b, double apart) const {
 /// How far the outermost edges are from the ends of the line, the nearer of both, in units of the window.
 double CurveTracer::border_distance(const Slice& slice) const {
   if (slice.edges.empty()) return 0.0;
-  const TongueLine& along = source_.along();
-  return std::min(slice.edges.front().edge.position - along.from,
-                  along.to - slice.edges.back().edge.position) /
-         (along.to - along.from);
+  const WindowScale& along = source_.along_scale();
+  return std::min(along.part(slice.edges.front().edge.position),
+                  1.0 - along.part(slice.edges.back().edge.position));
 }
 
 /// Two slices close together with different edges: a tip, or an edge that crosses the border.

@@ -23,6 +23,11 @@ void validate(const CurveOptions& options) {
   require(options.system_steps >= 2, "system_steps", options.system_steps, "2 or more");
 }
 
+void require_scale(const TongueLine& line, bool logarithmic) {
+  require(!logarithmic || line.from * line.to > 0.0, line.parameter + ": FROM", line.from,
+          "of the sign of TO = " + to_text(line.to) + " for its logarithm");
+}
+
 /// The scene at both ends of `over`, each checked on the line.
 std::array<Scene, 2> ends_of(const Scene& scene, const TongueLine& along, const TongueLine& over) {
   if (along.parameter == over.parameter) throw InvalidInput("both parameters are '" + over.parameter + "'");
@@ -52,6 +57,8 @@ std::vector<TongueCurve> tongue_curves(const Scene& scene, const TongueLine& alo
                                        const CurveOptions& options) {
   validate(options);
   const auto ends = ends_of(scene, along, over);
+  require_scale(along, options.log_along);
+  require_scale(over, options.log_over);
   const bool indexed = has_tongue_index(ends[0], along);
   if (indexed != has_tongue_index(ends[1], along))
     throw InvalidInput("tongues have an index at one end of '" + over.parameter + "' only");

@@ -217,6 +217,30 @@ TEST_CASE("what damping does not change is computed once for all lines", "[chart
   CHECK_THROWS_AS(tongue_curves(scene, along, over, options), NumericalFailure);
 }
 
+TEST_CASE("in a logarithmic window chords are as close to the curve as there", "[chart][tongues]") {
+  constexpr double kChord = 2e-3;
+  const auto curves =
+      tongue_curves(mathieu_scene(0.0), {"mathieu.delta", 0.1, 50.0}, {"mathieu.epsilon", 0.1, 30.0},
+                    {.chord = kChord, .log_along = true, .log_over = true, .count = 4});
+  int chords = 0;
+  for (const TongueCurve& curve : curves) {
+    for (std::size_t i = 0; i + 1 < curve.points.size(); ++i) {
+      const CurvePoint &a = curve.points[i], &b = curve.points[i + 1];
+      if (a.kind != b.kind) continue;
+      const auto pair =
+          characteristic_values(curve.order, curve.order, 2.0 * std::sqrt(a.over * b.over)).front();
+      const double edge = 0.25 * (a.kind == CurvePoint::Kind::upper ? pair.a.value : pair.b->value);
+      const double x = std::log(b.along / a.along) / std::log(500.0),
+                   y = std::log(b.over / a.over) / std::log(300.0);
+      const double u = std::log(edge / a.along) / std::log(500.0);
+      CAPTURE(curve.order, a.along, a.over);
+      CHECK(std::abs(u * y - 0.5 * y * x) <= 2.0 * kChord * std::hypot(x, y));
+      ++chords;
+    }
+  }
+  CHECK(chords > 100);
+}
+
 TEST_CASE("tongue_curves refuses what makes no window", "[chart][tongues]") {
   const Scene scene = mathieu_scene(0.0);
   const TongueLine along{"mathieu.delta", 0.0, 1.0}, over{"mathieu.epsilon", 0.0, 1.0};
@@ -225,6 +249,7 @@ TEST_CASE("tongue_curves refuses what makes no window", "[chart][tongues]") {
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.chord = 1e-7}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.tolerance = 1.0}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.slices = 0}), InvalidInput);
+  CHECK_THROWS_AS(tongue_curves(scene, along, over, {.log_over = true}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, over, {.max_evaluations = 0}), InvalidInput);
   CHECK_THROWS_AS(tongue_curves(scene, along, {"mathieu.damping", -1.0, 0.0}), InvalidInput);
 }

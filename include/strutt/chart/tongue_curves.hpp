@@ -40,7 +40,8 @@ struct CurveOptions {
   /// Straight lines between the points leave the curve by no more than this part of the window, 1e-6 <= chord
   /// <= 0.1.
   double chord = 1e-3;
-  int count = 0;             ///< tongues n = 0 ... count - 1; 0: all that the window can meet
+  bool log_along = false, log_over = false;  ///< parts of the window are those of the parameter's logarithm
+  int count = 0;                             ///< tongues n = 0 ... count - 1; 0: all that the window can meet
   int slices = 16;           ///< steps of the second parameter that the search begins with, >= 1
   int system_steps = 250;    ///< see TongueOptions
   double resolution = 1e-7;  ///< see TongueOptions; edges that touch a line take long at 1e-9
@@ -69,8 +70,8 @@ struct CurveOptions {
 /// crossing of two tongues is a tip, too.
 ///
 /// Cost: that of tongues() for some 30 to 60 values of the second parameter. Throws InvalidInput as tongues()
-/// at both ends of `over`, and where only one of them has tongues with an index; NumericalFailure where
-/// max_evaluations are not enough.
+/// at both ends of `over`, for a logarithm of a range with 0, and where only one of them has tongues with an
+/// index; NumericalFailure where max_evaluations are not enough.
 std::vector<TongueCurve> tongue_curves(const Scene& scene, const TongueLine& along, const TongueLine& over,
                                        const CurveOptions& options = {});
 
