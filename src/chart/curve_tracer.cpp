@@ -11,6 +11,7 @@ namespace {
 constexpr int kMostHalvings = 18;  // halvings of a step for a chord
 constexpr double kBroughtTogether =
     0x1p-12;                          // of the range: where two slices differ, they are brought so close
+constexpr double kSteepSlope = 4.0;   // of the window
 constexpr double kSteep = 0x1p-40;    // the same if an edge leaves the window steeply
 constexpr double kSeveral = 0x1p-20;  // the same where several things happen at once: curves end there
 
@@ -92,16 +93,33 @@ void CurveTracer::append(const Slice& slice) {
           point_of(slice.edges[i].edge, slice.over));
 }
 
-/// Every edge in the middle is as close as wanted to the straight line between its neighbours, in units of
-/// the window.
+Slice CurveTracer::between(const Slice& a, const Slice& b) {
+  return source_.at(source_.over_scale().middle(a.over, b.over));
+}
+
+/// Whether an edge goes along much farther than over: what looks straight may hide a corner, where edges grow
+/// like the root of the excitation.
+bool CurveTracer::steep(const Slice& a, const Slice& b) const {
+  const double y = source_.over_scale().share(a.over, b.over);
+  for (std::size_t i = 0; i < a.edges.size(); ++i)
+    if (std::abs(source_.along_scale().share(a.edges[i].edge.position, b.edges[i].edge.position)) >
+        kSteepSlope * y)
+      return true;
+  return false;
+}
+
+/// Every edge in the middle is as close as wanted to the straight piece between its neighbours, in units of
+/// the window; beyond an end of it the curve goes on to a corner.
 bool CurveTracer::straight(const Slice& a, const Slice& middle, const Slice& b) const {
+  if (!same_pattern(a, middle)) return false;
   const WindowScale &along = source_.along_scale(), &over = source_.over_scale();
   for (std::size_t i = 0; i < a.edges.size(); ++i) {
     const double x = along.share(a.edges[i].edge.position, b.edges[i].edge.position);
     const double y = over.share(a.over, b.over);
     const double u = along.share(a.edges[i].edge.position, middle.edges[i].edge.position);
     const double v = over.share(a.over, middle.over);
-    if (!(std::abs(x * v - y * u) <= options_.chord * std::hypot(x, y))) return false;
+    const double way = std::clamp((u * x + v * y) / (x * x + y * y), 0.0, 1.0);
+    if (!(std::hypot(u - way * x, v - way * y) <= options_.chord)) return false;
   }
   return true;
 }
@@ -114,11 +132,17 @@ void CurveTracer::advance(const Slice& a, const Slice& b, int depth) {
   if (options_.cancel != nullptr && *options_.cancel) return;
   if (!same && apart <= kBroughtTogether && may_bend(a, b, apart)) return bend(a, b);
   if (same && depth >= kMostHalvings) return append(b);
-  const Slice middle = source_.at(source_.over_scale().middle(a.over, b.over));
-  if (same && same_pattern(a, middle) && straight(a, middle, b)) {
-    append(middle);
-    append(b);
-    return;
+  const Slice middle = between(a, b);
+  if (same && straight(a, middle, b)) {
+    if (!steep(a, b)) {
+      append(middle);
+      return append(b);
+    }
+    const Slice first = between(a, middle), second = between(middle, b);
+    if (straight(a, first, middle) && straight(middle, second, b)) {
+      for (const Slice* slice : {&first, &middle, &second, &b}) append(*slice);
+      return;
+    }
   }
   advance(a, middle, depth + 1);
   advance(middle, b, depth + 1);

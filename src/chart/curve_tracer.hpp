@@ -36,6 +36,8 @@ class CurveTracer {
   void append(const Slice& slice);
   void restart(const Slice& slice);
   int open();
+  Slice between(const Slice& a, const Slice& b);
+  bool steep(const Slice& a, const Slice& b) const;
   bool straight(const Slice& a, const Slice& middle, const Slice& b) const;
   double border_distance(const Slice& slice) const;
   TongueCurve joined(int strand);

@@ -217,6 +217,20 @@ TEST_CASE("what damping does not change is computed once for all lines", "[chart
   CHECK_THROWS_AS(tongue_curves(scene, along, over, options), NumericalFailure);
 }
 
+TEST_CASE("a curve reaches the corner where both edges of a tongue meet at no excitation",
+          "[chart][tongues]") {
+  // along epsilon the edges of tongue 2 are square roots of |delta - 1|, about delta = 1
+  constexpr double kChord = 2e-3;
+  const auto curves = tongue_curves(mathieu_scene(0.0), {"mathieu.epsilon", 0.0, 6.0},
+                                    {"mathieu.delta", -1.0, 5.0}, {.chord = kChord, .count = 5});
+  for (const int n : {1, 2, 3, 4}) {
+    const auto points = points_of(curves, n);
+    REQUIRE(!points.empty());
+    CAPTURE(n);
+    CHECK(std::ranges::min(points, {}, &CurvePoint::along).along <= 2.0 * kChord * 6.0);
+  }
+}
+
 TEST_CASE("in a logarithmic window chords are as close to the curve as there", "[chart][tongues]") {
   constexpr double kChord = 2e-3;
   const auto curves =
