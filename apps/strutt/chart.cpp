@@ -134,7 +134,7 @@ std::unique_ptr<ChartWriter> writer_for(const ChartArguments& arguments,
   return std::make_unique<JsonChartWriter>(json_path(arguments), description);
 }
 
-constexpr int kMostOverlaidTongues = 40;
+constexpr int kMostOverlaidTongues = 100;
 constexpr double kOverlaySeconds = 20.0;   // of one thread, at most, as expected by counts
 constexpr double kLeastEvaluation = 1e-4;  // seconds
 constexpr double kOverlayResolution = 1e-5;
@@ -174,7 +174,7 @@ std::vector<TongueCurve> overlaid_tongues(const Scene& scene, const ChartRequest
     const bool indexed = has_tongue_index(scene, x);
     const int count = indexed ? most_tongues(scene, x, y) : 0;
     if (count > kMostOverlaidTongues)
-      return without(fmt::format("{} tongues, more than {}", count, kMostOverlaidTongues));
+      return without(fmt::format("up to {} tongues, more than {}", count, kMostOverlaidTongues));
     if (!indexed && plan.point.seconds > kOverlaidSystemPoint)
       return without("they would take long for this system");
     return tongue_curves(scene, x, y,

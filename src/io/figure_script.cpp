@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "io/chart_writers.hpp"
 #include "io/figure_axis.hpp"
@@ -65,6 +66,8 @@ std::string key_box(const std::string& colour, const std::string& title) {
       gnuplot_string(title));
 }
 
+constexpr std::array kVerdicts{Verdict::stable, Verdict::unstable, Verdict::boundary, Verdict::unresolved};
+
 std::string key_boxes(const FigureData& data) {
   std::string text;
   if (occurs(data, Verdict::stable)) text += key_box(hexadecimal(kStableColour), "stable");
@@ -86,9 +89,13 @@ std::string image(const FigureData& data, std::size_t repeat) {
       kCellsFile, width, height, dx, dy, low_x + dx / 2, low_y + dy / 2);
 }
 
-/// Characters that gnuplot adds to its estimate of a title, which is generous: with less of it six entries
-/// with the longest titles still stand in two rows.
-int key_width(const FigureContent& content) { return content.tongues.by_mechanism() ? -3 : 1; }
+/// Characters that gnuplot adds to its estimate of a title, which is generous, and the size of the letters:
+/// with less than usual five and six entries with the longest titles still stand in two rows.
+std::string key_size(const FigureContent& content, const FigureData& data) {
+  if (content.tongues.by_mechanism()) return "width -3";
+  const auto boxes = std::ranges::count_if(kVerdicts, [&](Verdict verdict) { return occurs(data, verdict); });
+  return boxes > 2 ? "width -3 font ',17'" : "width 1";
+}
 
 std::string label_commands(const std::vector<LineLabel>& labels) {
   std::string text;
@@ -126,9 +133,9 @@ std::string figure_script(const ChartDescription& description, const FigureData&
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
       "{}\n"
       "set border 15 linewidth 0.7 front\nset tics front\nset boxwidth 1\n"
-      "set key at screen {},0.012 center bottom horizontal Left reverse samplen 2 width {} maxrows 2\n",
+      "set key at screen {},0.012 center bottom horizontal Left reverse samplen 2 {} maxrows 2\n",
       gnuplot_terminal(content.format), kPictureFile, gnuplot_string(chart_title(description)), kLeft, kRight,
-      kBottom, kTop, (kLeft + kRight) / 2, key_width(content));
+      kBottom, kTop, (kLeft + kRight) / 2, key_size(content, data));
   text += axis_commands('x', request.x, description.x, data.columns());
   text += axis_commands('y', request.y, description.y, data.rows());
   text += colour_bar(content.scale) + label_commands(content.labels);
