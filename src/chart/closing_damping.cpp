@@ -12,10 +12,10 @@ constexpr double kPromise = 1e-8;  // no smaller error is asked for
 
 /// By the route with the smaller error.
 ClosingDamping tip_of(DampedLine& damped, LineEquation& equation, const TongueLine& line,
-                      const TongueEdge& low, const TongueEdge& high) {
+                      const TongueEdge& low, const TongueEdge& high, const std::atomic<bool>* cancel) {
   const auto thin = tip_by_width(damped, equation, line, low, high);
   if (thin && thin->error <= kPromise) return *thin;
-  const ClosingDamping wide = tip_by_multipliers(damped, line, low, high);
+  const ClosingDamping wide = tip_by_multipliers(damped, line, low, high, cancel);
   return thin && !(wide.error < thin->error) ? *thin : wide;
 }
 
@@ -33,7 +33,7 @@ std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine
     const bool pair = low.order == high.order && low.crossing == high.crossing && !low.upper && high.upper;
     if (!pair || low.order == 0 || low.width == 0.0 || low.width_relative_error >= 1.0) continue;
     if (options.cancel != nullptr && *options.cancel) break;
-    ClosingDamping row = tip_of(damped, equation, line, low, high);
+    ClosingDamping row = tip_of(damped, equation, line, low, high, options.cancel);
     row.tongue = low.order;
     row.crossing = low.crossing;
     if (!(row.error <= std::max(options.tolerance, kPromise))) row.outcome = Outcome::tolerance_not_reached;

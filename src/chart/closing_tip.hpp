@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <optional>
 
 #include "chart/damped_line.hpp"
@@ -13,7 +14,7 @@ namespace strutt {
 
 /// By the monodromy matrix; for thin tongues its error is large.
 ClosingDamping tip_by_multipliers(DampedLine& damped, const TongueLine& line, const TongueEdge& low,
-                                  const TongueEdge& high);
+                                  const TongueEdge& high, const std::atomic<bool>* cancel);
 
 /// By the width in the mean; nothing where the tongue is not thin.
 std::optional<ClosingDamping> tip_by_width(DampedLine& damped, LineEquation& equation, const TongueLine& line,

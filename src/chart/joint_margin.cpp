@@ -150,6 +150,9 @@ JointMargin joint_margin(const Scene& scene, Verdict verdict, const std::vector<
     if (options.cancel != nullptr && *options.cancel) return result;
   }
   for (const ParameterMargin& row : alone) include(row, scene, result);
+  // no edge found says nothing where that of a parameter alone is not known
+  const bool unknown = std::ranges::any_of(alone, [](const auto& row) { return std::isnan(row.distance); });
+  if (unknown && std::isinf(result.distance)) result.distance = result.error = NAN;
   if (!(result.error <= options.tolerance)) result.outcome = Outcome::tolerance_not_reached;
   return result;
 }

@@ -131,7 +131,7 @@ double NearestPoint::uncertainty(const Eigen::VectorXd& direction, double length
 SpherePoint NearestPoint::on_sphere(const Eigen::VectorXd& direction, double distance) {
   constexpr double kStep = 1e-6;
   SpherePoint result{direction, value(direction, distance), 0.0, direction};
-  for (Eigen::Index i = 0; i < direction.size(); ++i) {
+  for (Eigen::Index i = 0; i < direction.size() && !cancelled(); ++i) {
     const Eigen::VectorXd beside =
         (direction + kStep * Eigen::VectorXd::Unit(direction.size(), i)).normalized();
     result.gradient[i] = (value(beside, distance) - result.value) / kStep;
@@ -148,6 +148,7 @@ std::optional<Eigen::VectorXd> NearestPoint::outside(double distance) {
   };
   std::vector<Start> starts;
   for (const auto& direction : spread_directions(centre_.size())) {
+    if (cancelled()) return std::nullopt;
     const double f = value(direction, distance);
     if (f <= 0.0) return direction;
     if (!std::isnan(f)) starts.push_back({f, direction});

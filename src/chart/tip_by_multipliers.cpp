@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -16,11 +17,17 @@ constexpr int kTurns = 30;          // five suffice
 
 class WideTongue {
  public:
-  WideTongue(DampedLine& damped, const TongueLine& line, const TongueEdge& low, const TongueEdge& high)
-      : damped_(damped), line_(line), order_(low.order), low_(low.position), high_(high.position) {}
+  WideTongue(DampedLine& damped, const TongueLine& line, const TongueEdge& low, const TongueEdge& high,
+             const std::atomic<bool>* cancel)
+      : damped_(damped),
+        line_(line),
+        order_(low.order),
+        low_(low.position),
+        high_(high.position),
+        cancel_(cancel) {}
 
   ClosingDamping tip() {
-    Tip best;
+    Tip best{.place = std::midpoint(low_, high_)};
     for (const double start : starts()) {
       const Tip tip = climb(start);
       if (tip.damping > best.damping) best = tip;
@@ -38,6 +45,7 @@ class WideTongue {
   /// How much more damping the tongue could stand at a point, if damping did not shift the mean; no more than
   /// -c outside of it.
   double excess(double p, double c) {
+    if (cancel_ != nullptr && *cancel_) return -c;
     const Stability s = damped_.at(p, c);
     const bool inside = (s.discriminant > 0.0) == (order_ % 2 == 0) && std::lround(2.0 * s.winding) == order_;
     return inside ? 2.0 * s.growth_per_time : -c;
@@ -85,8 +93,10 @@ class WideTongue {
   /// A place towards the end of the line, with the maximum before it or at that end.
   template <typename Function>
   double beyond(const Minimum& here, double end, const Function& lack) {
+    const double first =
+        std::max((high_ - low_) / kTongueSamples, kUnit * std::max(1.0, std::abs(here.place)));
     double last = here.value;
-    return here.place + std::copysign(certain_distance(here.place, end, (high_ - low_) / kTongueSamples,
+    return here.place + std::copysign(certain_distance(here.place, end, first,
                                                        [&](double p) {
                                                          const double value = lack(p);
                                                          return value > std::exchange(last, value);
@@ -109,13 +119,14 @@ class WideTongue {
   const TongueLine& line_;
   int order_;
   double low_, high_;
+  const std::atomic<bool>* cancel_;
 };
 
 }  // namespace
 
 ClosingDamping tip_by_multipliers(DampedLine& damped, const TongueLine& line, const TongueEdge& low,
-                                  const TongueEdge& high) {
-  return WideTongue(damped, line, low, high).tip();
+                                  const TongueEdge& high, const std::atomic<bool>* cancel) {
+  return WideTongue(damped, line, low, high, cancel).tip();
 }
 
 }  // namespace strutt

@@ -16,6 +16,7 @@ class WindowScale {
   /// 0 at from, 1 at to.
   double part(double value) const { return length(from_, value) / length(from_, to_); }
   double at(double part) const {
+    if (part == 1.0) return to_;
     return logarithmic_ ? from_ * std::pow(to_ / from_, part) : std::lerp(from_, to_, part);
   }
   double middle(double a, double b) const {

@@ -141,4 +141,12 @@ TEST_CASE("no random search finds an edge nearer than the joint margin, which is
   }
 }
 
+TEST_CASE("no edge found means nothing where a single parameter is beyond the known tongues",
+          "[chart][margin]") {
+  const auto found = stability_margin(rod(Equilibrium::hanging, 0.05, 0.05), {"support.frequency"});
+  CHECK(std::isnan(found.parameters.front().distance));
+  CHECK(std::isnan(found.joint.distance));
+  CHECK(found.joint.outcome == Outcome::tolerance_not_reached);
+}
+
 }  // namespace strutt::test::joint_margin_test

@@ -27,9 +27,10 @@ struct ClosingDamping {
 /// the distance from the tip; the error is that of the margin. Where it is smaller, the error is that of
 ///   c = 2 growth/T
 /// with the growth of the undamped tongue in its middle (narrow_tongue_growth): for tongues narrower than
-/// some 1e-5 of the distance to the next one. The worst error, between both, is about 1e-9; `outcome` is
-/// converged up to 1e-8 or the tolerance. No damping closes tongue 0. `options` as of tongues(), whose
-/// `count` counts tongue 0. Throws as tongues(), and for a line along the damping.
+/// some 1e-5 of the distance to the next one. The worst error, between both, is about 1e-9; under excitation
+/// so strong that tongues follow each other within a rounding (epsilon = 100 of Mathieu's equation) it is
+/// larger. `outcome` is converged up to 1e-8 or the tolerance. No damping closes tongue 0. `options` as of
+/// tongues(), whose `count` counts tongue 0. Throws as tongues(), and for a line along the damping.
 std::vector<ClosingDamping> closing_damping(const Scene& scene, const TongueLine& line,
                                             const TongueOptions& options = {});
 
