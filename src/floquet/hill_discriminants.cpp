@@ -17,6 +17,10 @@ namespace {
 
 using std::numbers::pi;
 
+// Every lane has its bound looked at, so that the first attempt may use more of the tolerance than where all
+// lanes have to do with it.
+constexpr double kFirstAttempt = 4.0;
+
 /// Chosen lanes of a batch.
 struct Selection {
   std::vector<double> mean;
@@ -53,7 +57,7 @@ HillDiscriminants::HillDiscriminants(std::vector<int> orders, double tolerance)
   const int highest = orders.empty() ? 0 : *std::max_element(orders.begin(), orders.end());
   coefficient_error_ = HillSeries::evaluation_error(highest);
   const auto [first, lowest] = series_ladder({.tolerance = tolerance});
-  local_tolerances_.push_back(first);
+  local_tolerances_.push_back(kFirstAttempt * first);
   while (local_tolerances_.back() > lowest)
     local_tolerances_.push_back(std::max(kLadderStep * local_tolerances_.back(), lowest));
 }
